@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <umbilic/core/progress.h>
+#include <umbilic/matching/alignment.h>
+#include <umbilic/matching/prepared_model.h>
+
+namespace umbilic {
+
+enum class MethodChoice { automatic, umbilics, moments };
+enum class MirrorChoice { automatic, never };
+enum class ScopeChoice { automatic, global, partial };
+
+/// What is known of the scale. automatic: nothing; fixed: it is 1; range: it lies in [low, high].
+struct ScaleChoice {
+    enum class Kind { automatic, fixed, range } kind = Kind::automatic;
+    double low = 0.0;
+    double high = 0.0;
+};
+
+struct MatchOptions {
+    MethodChoice method = MethodChoice::automatic;
+    ScaleChoice scale;
+    MirrorChoice mirror = MirrorChoice::automatic;
+    ScopeChoice scope = ScopeChoice::automatic;
+    /// Pose to start from (--initial): it is refined and takes part as a hypothesis.
+    std::optional<SimilarityTransform> initial;
+    /// Known corresponding points (--pairs): first on the original, second on the suspect, mm.
+    std::vector<std::pair<Vector3, Vector3>> pairs;
+    /// mm of the original within which a sample counts as lying on the other model; none: derived (see tolerances).
+    std::optional<double> tolerance;
+    /// Greatest difference of the scale-free invariants (delta, zeta) of two umbilics that may correspond, delta_omega
+    /// of the thesis.
+    double umbilic_invariant_tolerance = 0.15;
+};
+
+/// Finds how the suspect lies on the original when nothing is known of pose, scale or handedness: every method the
+/// models allow proposes poses, all are scored by the same rule (share of area within tolerance, both ways), the best
+/// are refined by point-to-surface least squares (thesis chapter 4). If no method applies, status is not_found and
+/// `why` says so. Deterministic. Throws Cancelled.
+Alignment match(const PreparedModel& original, const PreparedModel& suspect, const MatchOptions& options = {},
+                const Progress& progress = {});
+
+}  // namespace umbilic

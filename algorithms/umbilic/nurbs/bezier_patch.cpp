@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <umbilic/nurbs/bezier_patch.h>
+
+#include <limits>
+
+namespace umbilic {
+
+namespace {
+
+/// Half an ulp of 1: the largest relative error of one rounded operation.
+constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
+
+/// Row-major (degree + 1)^2 matrix that takes the control points i - degree ... i of span i to the Bernstein
+/// coefficients on that span: entry (j, k) is the coefficient of control point k in the polar form at degree - j
+/// arguments low and j arguments high. Both factors of every de Boor step lie in [0, 1] and are formed without
+/// cancellation of rounded numbers, so each entry has a relative error of at most 6 degree unit roundoffs (3 per
+/// quotient of two differences, one product, one sum, per step).
+std::vector<double> extraction_matrix(const KnotVector& knots, int span) {
+    const int p = knots.degree();
+    const std::vector<double>& t = knots.knots();
+    std::vector<double> result((p + 1) * (p + 1));
+    std::vector<double> column(p + 1);
+    for (int k = 0; k <= p; ++k)
+        for (int j = 0; j <= p; ++j) {
+            column.assign(p + 1, 0.0);
+            column[k] = 1.0;
+            for (int level = 1; level <= p; ++level) {
+                const double argument = level <= p - j ? t[span] : t[span + 1];
+                for (int i = p; i >= level; --i) {
+                    const double low = t[span - p + i];
+                    const double high = t[span + 1 + i - level];
+                    const double alpha = (argument - low) / (high - low);
+                    const double beta = (high - argument) / (high - low);
+                    column[i] = beta * column[i - 1] + alpha * column[i];
+                }
+            }
+            result[j * (p + 1) + k] = column[p];
+        }
+    return result;
+}
+
+struct Span {
+    int index = 0;
+    ParameterInterval interval;
+    std::vector<double> matrix;
+};
+
+std::vector<Span> spans(const KnotVector& knots) {
+    std::vector<Span> result;
+    for (int i = knots.degree(); i < knots.pole_count(); ++i)
+        if (knots.knots()[i] < knots.knots()[i + 1])
+            result.push_back({i, {knots.knots()[i], knots.knots()[i + 1]}, extraction_matrix(knots, i)});
+    return result;
+}
+
+BezierPatch extract(const NurbsSurface& surface, const Span& u, const Span& v) {
+    const int p = surface.u_degree(), q = surface.v_degree();
+    BezierPatch patch;
+    patch.u_degree = p;
+    patch.v_degree = q;
+    patch.rational = surface.rational();
+    patch.domain = {u.interval, v.interval};
+    patch.origin = surface.pole(u.index - p / 2, v.index - q / 2);
+
+    std::vector<Vector4> local((p + 1) * (q + 1));
+    double largest = 0.0, heaviest = 0.0;
+    for (int i = 0; i <= p; ++i)
+        for (int j = 0; j <= q; ++j) {
+            const double w = surface.weight(u.index - p + i, v.index - q + j);
+            Vector4& point = local[i * (q + 1) + j];
+            point << w * (surface.pole(u.index - p + i, v.index - q + j) - patch.origin), w;
+            largest = std::max(largest, point.head<3>().cwiseAbs().maxCoeff());
+            heaviest = std::max(heaviest, w);
+        }
+
+    std::vector<Vector4> half((p + 1) * (q + 1), Vector4::Zero());
+    for (int i = 0; i <= p; ++i)
+        for (int j = 0; j <= q; ++j)
+            for (int k = 0; k <= q; ++k) half[i * (q + 1) + j] += v.matrix[j * (q + 1) + k] * local[i * (q + 1) + k];
+    patch.poles.assign((p + 1) * (q + 1), Vector4::Zero());
+    for (int i = 0; i <= p; ++i)
+        for (int k = 0; k <= p; ++k)
+            for (int j = 0; j <= q; ++j)
+                patch.poles[i * (q + 1) + j] += u.matrix[i * (p + 1) + k] * half[k * (q + 1) + j];
+    if (!patch.rational)
+        for (Vector4& pole : patch.poles) pole[3] = 1.0;
+
+    // Matrix entries 6 (p + q), inner products 2 (p + 1) + 2 (q + 1), translation and weighting 2; one more for the
+    // second-order terms of these counts, which stay below one unit for every degree up to maximum_degree.
+    const double units = 8.0 * (p + q) + 7.0;
+    patch.position_error = units * unit_roundoff * largest;
+    patch.weight_error = patch.rational ? units * unit_roundoff * heaviest : 0.0;
+    return patch;
+}
+
+}  // namespace
+
+BezierPatches bezier_patches(const NurbsSurface& surface) {
+    const std::vector<Span> u_spans = spans(surface.u_knots());
+    const std::vector<Span> v_spans = spans(surface.v_knots());
+    BezierPatches result;
+    result.u_count = static_cast<int>(u_spans.size());
+    result.v_count = static_cast<int>(v_spans.size());
+    result.patches.reserve(u_spans.size() * v_spans.size());
+    for (const Span& u : u_spans)
+        for (const Span& v : v_spans) result.patches.push_back(extract(surface, u, v));
+    return result;
+}
+
+}  // namespace umbilic

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <umbilic/nurbs/knot_vector.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <umbilic/core/errors.h>
+
+namespace umbilic {
+
+namespace {
+
+void check(int degree, const std::vector<double>& knots) {
+    if (degree < 1 || degree > maximum_degree)
+        throw InvalidInput("knot vector: degree " + std::to_string(degree) + " is outside [1, " +
+                           std::to_string(maximum_degree) + "]");
+    const int count = static_cast<int>(knots.size());
+    if (count < 2 * (degree + 1))
+        throw InvalidInput("knot vector: " + std::to_string(count) + " knots are too few for degree " +
+                           std::to_string(degree) + " (at least " + std::to_string(2 * (degree + 1)) + ")");
+    for (int i = 0; i < count; ++i) {
+        if (!std::isfinite(knots[i])) throw InvalidInput("knot vector: knot " + std::to_string(i) + " is not finite");
+        if (i > 0 && knots[i] < knots[i - 1])
+            throw InvalidInput("knot vector: knot " + std::to_string(i) + " (" + std::to_string(knots[i]) +
+                               ") is smaller than its predecessor (" + std::to_string(knots[i - 1]) + ")");
+    }
+    const double low = knots[degree];
+    const double high = knots[count - degree - 1];
+    if (!(low < high)) throw InvalidInput("knot vector: the parameter domain is empty");
+    for (int i = 0, run = 1; i + 1 < count; ++i) {
+        run = knots[i + 1] == knots[i] ? run + 1 : 1;
+        const bool interior = low < knots[i] && knots[i] < high;
+        const int most = interior ? degree : degree + 1;
+        if (run > most)
+            throw InvalidInput("knot vector: knot " + std::to_string(knots[i]) + " has multiplicity above " +
+                               std::to_string(most));
+    }
+}
+
+}  // namespace
+
+KnotVector::KnotVector(int degree, std::vector<double> knots) : degree_(degree), knots_(std::move(knots)) {
+    check(degree_, knots_);
+    const ParameterInterval range = domain();
+    for (const double knot : knots_)
+        if (range.contains(knot) && (breaks_.empty() || knot > breaks_.back())) breaks_.push_back(knot);
+    for (const double value : breaks_) {
+        const auto multiplicity = std::count(knots_.begin(), knots_.end(), value);
+        continuity_.push_back(degree_ - static_cast<int>(multiplicity));
+    }
+    continuity_.front() = -1;
+    continuity_.back() = -1;
+}
+
+KnotVector KnotVector::bezier(int degree) {
+    std::vector<double> knots(2 * (std::max(degree, 0) + 1), 0.0);
+    std::fill(knots.begin() + static_cast<std::ptrdiff_t>(knots.size() / 2), knots.end(), 1.0);
+    return KnotVector(degree, std::move(knots));
+}
+
+int KnotVector::span(double u, Side side) const {
+    const auto first = knots_.begin() + degree_;
+    const auto last = knots_.begin() + pole_count();
+    if (side == Side::right) {
+        if (u >= *last) u = *last, side = Side::left;
+    } else if (u <= *first) {
+        u = *first, side = Side::right;
+    }
+    const auto next = side == Side::right ? std::upper_bound(first, last + 1, u) : std::lower_bound(first, last + 1, u);
+    const auto clamped = std::clamp(next, first + 1, last + 1);
+    return static_cast<int>(clamped - knots_.begin()) - 1;
+}
+
+void KnotVector::basis(int span, double u, int order, double* result) const {
+    assert(0 <= order && order <= maximum_derivative);
+    const int p = degree_;
+    constexpr int size = maximum_degree + 1;
+    // Upper triangle: basis functions of lower degree; lower triangle: the knot differences that divide them.
+    std::array<std::array<double, size>, size> table;
+    std::array<double, size> left, right;
+    table[0][0] = 1.0;
+    for (int j = 1; j <= p; ++j) {
+        left[j] = u - knots_[span + 1 - j];
+        right[j] = knots_[span + j] - u;
+        double saved = 0.0;
+        for (int r = 0; r < j; ++r) {
+            table[j][r] = right[r + 1] + left[j - r];
+            const double quotient = table[r][j - 1] / table[j][r];
+            table[r][j] = saved + right[r + 1] * quotient;
+            saved = left[j - r] * quotient;
+        }
+        table[j][j] = saved;
+    }
+    const int stride = p + 1;
+    for (int j = 0; j <= p; ++j) result[j] = table[j][p];
+
+    const int highest = std::min(order, p);
+    for (int r = 0; r <= p && highest > 0; ++r) {
+        std::array<std::array<double, size>, 2> a;
+        a[0][0] = 1.0;
+        int now = 0;
+        for (int k = 1; k <= highest; ++k) {
+            const int next = 1 - now;
+            double derivative = 0.0;
+            const int rk = r - k;
+            const int pk = p - k;
+            if (r >= k) {
+                a[next][0] = a[now][0] / table[pk + 1][rk];
+                derivative = a[next][0] * table[rk][pk];
+            }
+            const int low = rk >= -1 ? 1 : -rk;
+            const int high = r - 1 <= pk ? k - 1 : p - r;
+            for (int j = low; j <= high; ++j) {
+                a[next][j] = (a[now][j] - a[now][j - 1]) / table[pk + 1][rk + j];
+                derivative += a[next][j] * table[rk + j][pk];
+            }
+            if (r <= pk) {
+                a[next][k] = -a[now][k - 1] / table[pk + 1][r];
+                derivative += a[next][k] * table[r][pk];
+            }
+            result[k * stride + r] = derivative;
+            now = next;
+        }
+    }
+    double factor = 1.0;
+    for (int k = 1; k <= highest; ++k) {
+        factor *= p - k + 1;
+        for (int j = 0; j <= p; ++j) result[k * stride + j] *= factor;
+    }
+    for (int k = highest + 1; k <= order; ++k) std::fill_n(result + k * stride, stride, 0.0);
+}
+
+}  // namespace umbilic

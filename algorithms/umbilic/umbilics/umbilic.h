@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <complex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <umbilic/core/types.h>
+#include <umbilic/differential/monge_form.h>
+#include <umbilic/nurbs/trimming.h>
+
+namespace umbilic {
+
+enum class UmbilicType { star, monstar, lemon, non_generic };
+/// Whether the cubic form of a star has three real root lines (elliptic) or one (hyperbolic).
+enum class StarKind { none, elliptic, hyperbolic };
+
+/// What the cubic form at an umbilic says (thesis 2.1.4 and Appendix A, with the corrections named in
+/// docs/numerics.md).
+struct UmbilicClass {
+    std::complex<double> alpha, beta;  ///< complex form of the cubic (2.28)-(2.29), 1/mm^2
+    std::optional<std::complex<double>>
+        omega;                  ///< (2.30), representative with argument in [-pi/3, pi/3); none where alpha vanishes
+    double delta = 0.0;         ///< (|alpha|^2 - |beta|^2) / (|alpha|^2 + |beta|^2), in [-1, 1]
+    std::complex<double> zeta;  ///< alpha beta^3 / (|alpha|^2 + |beta|^2)^2, turns with no frame
+    UmbilicType type = UmbilicType::non_generic;
+    StarKind star = StarKind::none;
+    std::vector<double>
+        angles;  ///< 1 or 3 directions of lines of curvature, radians from the frame's x axis, in [0, pi)
+};
+
+/// Classifies a cubic form by discriminants. A form within the relative `margin` of a dividing curve is non_generic.
+UmbilicClass classify(const Cubic& cubic, double margin);
+
+/// An isolated umbilical point of a face.
+struct Umbilic {
+    SurfacePoint at;
+    Vector3 point = Vector3::Zero();
+    Vector3 normal = Vector3::UnitZ();  ///< r_u x r_v / |...| of the surface, whatever the face's orientation
+    Vector3 x_axis = Vector3::UnitX();  ///< r_u / |r_u|: frame of `cubic`, with y = normal x x_axis
+    double kappa = 0.0;                 ///< normal curvature, 1/mm, sign as in the thesis
+    Cubic cubic;
+    UmbilicClass kind;
+    bool flat = false;                ///< kappa is 0 within its error bound
+    double index = 0.0;               ///< -0.5 for a star, +0.5 for lemon and monstar
+    std::vector<Vector3> directions;  ///< unit tangents of the lines of curvature that run into it
+    ParameterBox box;                 ///< box inside which existence and uniqueness were proved
+    double radius = 0.0;  ///< proved distance from (u, v) to the true umbilic, relative to the domain's sides
+    bool certified = false;
+    Containment containment = Containment::inside;
+};
+
+/// Boxes that the search could neither accept nor exclude, joined where they touch.
+struct UndecidedCluster {
+    std::vector<ParameterBox> boxes;
+    std::optional<double> index;  ///< index of whatever lies inside, from the winding around it
+};
+
+/// A curve of umbilics.
+struct UmbilicLine {
+    std::vector<ParameterBox> boxes;
+    std::vector<Vector3> points;
+};
+
+enum class UmbilicRegionKind { planar, spherical, other };
+
+/// A part of a face on which every point is an umbilic.
+struct UmbilicRegion {
+    UmbilicRegionKind kind = UmbilicRegionKind::other;
+    std::vector<ParameterBox> boxes;
+    double area = 0.0;  ///< mm^2, of the boxes on the untrimmed surface
+};
+
+/// Completeness: on a domain, the indices of all umbilics sum to the winding of the principal direction field along its
+/// boundary.
+struct Certificate {
+    double index_sum = 0.0;
+    double boundary_winding = 0.0;  ///< turns, a multiple of 1/2; meaningful only where `complete` has a value
+    std::optional<bool> complete;   ///< no value: could not be evaluated
+    std::string why;                ///< reason where not evaluable or not complete
+};
+
+struct UmbilicSearchStatistics {
+    int patches = 0;  ///< Bezier patches searched
+    int formed = 0;   ///< patches whose equations had to be formed
+    long boxes = 0;   ///< boxes visited
+    bool budget_exhausted = false;
+};
+
+/// Everything umbilic on one face (its whole domain, with `containment` telling what lies inside its loops).
+struct FaceUmbilics {
+    int face = 0;
+    std::vector<Umbilic> umbilics;  ///< ordered by u, then v
+    std::vector<UndecidedCluster> undecided;
+    std::vector<UmbilicLine> lines;
+    std::vector<UmbilicRegion> regions;
+    Certificate certificate;
+    UmbilicSearchStatistics statistics;
+};
+
+/// Lower-case words of the JSON results.
+const char* name(UmbilicType type);
+const char* name(StarKind kind);
+const char* name(UmbilicRegionKind kind);
+
+}  // namespace umbilic
