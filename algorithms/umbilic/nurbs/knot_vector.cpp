@@ -65,14 +65,10 @@ KnotVector KnotVector::bezier(int degree) {
 int KnotVector::span(double u, Side side) const {
     const auto first = knots_.begin() + degree_;
     const auto last = knots_.begin() + pole_count();
-    if (side == Side::right) {
-        if (u >= *last) u = *last, side = Side::left;
-    } else if (u <= *first) {
-        u = *first, side = Side::right;
-    }
+    if (u >= *last) u = *last, side = Side::left;
+    if (u <= *first) u = *first, side = Side::right;
     const auto next = side == Side::right ? std::upper_bound(first, last + 1, u) : std::lower_bound(first, last + 1, u);
-    const auto clamped = std::clamp(next, first + 1, last + 1);
-    return static_cast<int>(clamped - knots_.begin()) - 1;
+    return static_cast<int>(next - knots_.begin()) - 1;
 }
 
 void KnotVector::basis(int span, double u, int order, double* result) const {
