@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <report/json.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <report/json_geometry.h>
+
+namespace umbilic {
+
+Json number_json(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+std::string text(const Json& json) {
+    return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+Json input_json(const Model& model) {
+    const Source& source = model.source;
+    const auto is_nurbs = [](const Face& face) {
+        return face.kind == SurfaceKind::bspline || face.kind == SurfaceKind::bezier;
+    };
+    Json skipped = Json::array();
+    for (const Skipped& part : model.skipped) {
+        const Json which = part.face > 0 ? Json{{"face", part.face}} : Json{{"entity", part.entity}};
+        skipped.push_back(which);
+        skipped.back()["why"] = part.why;
+    }
+    return {{"path", source.path},
+            {"sha256", source.sha256},
+            {"bytes", source.bytes},
+            {"format", source.format},
+            {"unit", source.unit},
+            {"unit_in_mm", number_json(source.unit_in_mm)},
+            {"solids", model.solids.size()},
+            {"shells", model.shells},
+            {"faces", model.faces.size()},
+            {"nurbs_faces", std::count_if(model.faces.begin(), model.faces.end(), is_nurbs)},
+            {"declared_faces", model.declared_faces < 0 ? Json(nullptr) : Json(model.declared_faces)},
+            {"area", number_json(model.area)},
+            {"volume", number_json(model.volume)},
+            {"box", {vector_json(model.box.low), vector_json(model.box.high)}},
+            {"valid", model.valid},
+            {"skipped", std::move(skipped)},
+            {"repaired", model.repaired},
+            {"warnings", model.warnings}};
+}
+
+Json info_json(const Model& model) {
+    std::map<std::string, int> by_surface;
+    Json faces = Json::array();
+    for (const Face& face : model.faces) {
+        ++by_surface[name(face.kind)];
+        faces.push_back({{"face", face.number},
+                         {"surface", name(face.kind)},
+                         {"degree", {face.surface.u_degree(), face.surface.v_degree()}},
+                         {"poles", {face.surface.u_pole_count(), face.surface.v_pole_count()}},
+                         {"rational", face.surface.rational()},
+                         {"periodic", {face.u_periodic, face.v_periodic}},
+                         {"closed", {face.u_closed, face.v_closed}},
+                         {"trimmed", !face.region.whole_domain()},
+                         {"area", number_json(face.area)},
+                         {"orientation", face.reversed ? "reversed" : "forward"},
+                         {"solid", face.solid < 0 ? Json(nullptr) : Json(face.solid + 1)},
+                         {"name", face.name},
+                         {"conversion_error", number_json(face.conversion_error)}});
+    }
+    return {{"schema", "umbilic.info/1"},
+            {"input", input_json(model)},
+            {"surfaces", by_surface},
+            {"faces", std::move(faces)}};
+}
+
+}  // namespace umbilic

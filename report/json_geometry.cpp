@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <report/json_geometry.h>
+
+namespace umbilic {
+
+namespace {
+
+Json box_json(const Face& face, const ParameterBox& box) {
+    const Vector2 low = native_parameters(face, box.u.low, box.v.low);
+    const Vector2 high = native_parameters(face, box.u.high, box.v.high);
+    return {{number_json(low.x()), number_json(high.x())}, {number_json(low.y()), number_json(high.y())}};
+}
+
+Json boxes_json(const Face& face, const std::vector<ParameterBox>& boxes) {
+    Json json = Json::array();
+    for (const ParameterBox& box : boxes) json.push_back(box_json(face, box));
+    return json;
+}
+
+template <typename Number>
+Json optional_json(const std::optional<Number>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+const char* word(Containment containment) {
+    switch (containment) {
+        case Containment::inside:
+            return "inside";
+        case Containment::outside:
+            return "outside";
+        case Containment::boundary:
+            return "boundary";
+    }
+    return "boundary";
+}
+
+Json certificate_json(const Certificate& certificate) {
+    return {{"index_sum", number_json(certificate.index_sum)},
+            {"boundary_winding", certificate.complete ? number_json(certificate.boundary_winding) : Json(nullptr)},
+            {"complete", optional_json(certificate.complete)},
+            {"why", certificate.why}};
+}
+
+Json face_umbilics_json(const Face& face, const FaceUmbilics& found) {
+    Json umbilics = Json::array();
+    for (const Umbilic& umbilic : found.umbilics) umbilics.push_back(umbilic_json(face, umbilic));
+    Json lines = Json::array();
+    for (const UmbilicLine& line : found.lines) {
+        Json points = Json::array();
+        for (const Vector3& point : line.points) points.push_back(vector_json(point));
+        lines.push_back({{"boxes", boxes_json(face, line.boxes)}, {"points", std::move(points)}});
+    }
+    Json regions = Json::array();
+    for (const UmbilicRegion& region : found.regions) {
+        regions.push_back({{"kind", name(region.kind)},
+                           {"boxes", boxes_json(face, region.boxes)},
+                           {"area", number_json(region.area)}});
+    }
+    Json undecided = Json::array();
+    for (const UndecidedCluster& cluster : found.undecided) {
+        undecided.push_back({{"boxes", boxes_json(face, cluster.boxes)}, {"index", optional_json(cluster.index)}});
+    }
+    return {{"face", face.number},
+            {"surface", name(face.kind)},
+            {"degree", {face.surface.u_degree(), face.surface.v_degree()}},
+            {"poles", {face.surface.u_pole_count(), face.surface.v_pole_count()}},
+            {"rational", face.surface.rational()},
+            {"umbilics", std::move(umbilics)},
+            {"lines", std::move(lines)},
+            {"regions", std::move(regions)},
+            {"undecided", std::move(undecided)},
+            {"certificate", certificate_json(found.certificate)}};
+}
+
+}  // namespace
+
+Json vector_json(const Vector3& vector) {
+    return {number_json(vector.x()), number_json(vector.y()), number_json(vector.z())};
+}
+
+Json complex_json(std::complex<double> value) {
+    return {number_json(value.real()), number_json(value.imag())};
+}
+
+Vector2 native_parameters(const Face& face, double u, double v) {
+    return {face.region.u_map().native(u), face.region.v_map().native(v)};
+}
+
+std::vector<LocatedUmbilic> isolated_umbilics(const PreparedModel& prepared) {
+    std::vector<LocatedUmbilic> located;
+    for (const FaceUmbilics& found : prepared.features.umbilics) {
+        const Face& face = prepared.model.face(found.face);
+        for (const Umbilic& umbilic : found.umbilics) {
+            if (umbilic.containment == Containment::inside) located.push_back({&face, &umbilic});
+        }
+    }
+    return located;
+}
+
+Json umbilic_json(const Face& face, const Umbilic& umbilic) {
+    const Vector2 native = native_parameters(face, umbilic.at.u, umbilic.at.v);
+    const UmbilicClass& kind = umbilic.kind;
+    Json directions = Json::array();
+    for (const Vector3& direction : umbilic.directions) directions.push_back(vector_json(direction));
+    return {{"u", number_json(native.x())},
+            {"v", number_json(native.y())},
+            {"point", vector_json(umbilic.point)},
+            {"normal", vector_json(umbilic.normal)},
+            {"kappa", number_json(umbilic.kappa)},
+            {"cubic",
+             {number_json(umbilic.cubic.a), number_json(umbilic.cubic.b), number_json(umbilic.cubic.c),
+              number_json(umbilic.cubic.d)}},
+            {"omega", kind.omega ? complex_json(*kind.omega) : Json(nullptr)},
+            {"delta", number_json(kind.delta)},
+            {"zeta", complex_json(kind.zeta)},
+            {"radius", number_json(umbilic.radius)},
+            {"type", name(kind.type)},
+            {"star", kind.star == StarKind::none ? Json(nullptr) : Json(name(kind.star))},
+            {"flat", umbilic.flat},
+            {"index", number_json(umbilic.index)},
+            {"directions", std::move(directions)},
+            {"box", box_json(face, umbilic.box)},
+            {"certified", umbilic.certified},
+            {"inside", umbilic.containment != Containment::outside},
+            {"containment", word(umbilic.containment)}};
+}
+
+Json umbilics_json(const Model& model, const std::vector<FaceUmbilics>& umbilics) {
+    Json faces = Json::array();
+    for (const FaceUmbilics& found : umbilics) faces.push_back(face_umbilics_json(model.face(found.face), found));
+    return {{"schema", "umbilic.umbilics/1"}, {"input", input_json(model)}, {"faces", std::move(faces)}};
+}
+
+}  // namespace umbilic

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <report/parameters.h>
+
+namespace umbilic {
+
+namespace {
+
+/// Parameter whose default is a constant of the program.
+template <typename Value>
+Parameter constant(std::string name, const Value& value, const Value& default_value, std::string unit,
+                   std::string meaning) {
+    return {std::move(name), value, std::move(unit),
+            value == default_value ? ToleranceOrigin::fixed_default : ToleranceOrigin::user, std::move(meaning)};
+}
+
+std::string word(MethodChoice choice) {
+    switch (choice) {
+        case MethodChoice::automatic:
+            return "auto";
+        case MethodChoice::umbilics:
+            return "umbilics";
+        case MethodChoice::moments:
+            return "moments";
+    }
+    return "auto";
+}
+
+std::string word(MirrorChoice choice) {
+    return choice == MirrorChoice::never ? "never" : "auto";
+}
+
+std::string word(ScopeChoice choice) {
+    switch (choice) {
+        case ScopeChoice::automatic:
+            return "auto";
+        case ScopeChoice::global:
+            return "global";
+        case ScopeChoice::partial:
+            return "partial";
+    }
+    return "auto";
+}
+
+std::string word(const ScaleChoice& choice) {
+    switch (choice.kind) {
+        case ScaleChoice::Kind::automatic:
+            return "auto";
+        case ScaleChoice::Kind::fixed:
+            return "fixed";
+        case ScaleChoice::Kind::range:
+            return number_json(choice.low).dump() + ":" + number_json(choice.high).dump();
+    }
+    return "auto";
+}
+
+}  // namespace
+
+std::vector<Parameter> match_parameters(const FeatureOptions& features, const MatchOptions& options,
+                                        const Alignment& alignment) {
+    const FeatureOptions feature_defaults;
+    const MatchOptions defaults;
+    const auto& search = features.umbilics;
+    const auto& search_defaults = feature_defaults.umbilics;
+    std::vector<Parameter> parameters;
+    parameters.push_back(constant("method", word(options.method), word(defaults.method), "", "how poses are proposed"));
+    parameters.push_back(
+        constant("scale", word(options.scale), word(defaults.scale), "", "what is known of the scale"));
+    parameters.push_back(
+        constant("mirror", word(options.mirror), word(defaults.mirror), "", "whether mirror images are tried"));
+    parameters.push_back(
+        constant("scope", word(options.scope), word(defaults.scope), "", "whole models or parts of them"));
+    if (options.initial) {
+        parameters.push_back({"initial", "given", "", ToleranceOrigin::user, "a pose to start from"});
+    }
+    if (!options.pairs.empty()) {
+        parameters.push_back(
+            {"pairs", options.pairs.size(), "1", ToleranceOrigin::user, "number of known corresponding points"});
+    }
+    parameters.push_back({"match-tolerance", number_json(alignment.tolerance), "mm",
+                          options.tolerance ? ToleranceOrigin::user : ToleranceOrigin::derived,
+                          "a sample lies on the other model if its distance <= match-tolerance"});
+    parameters.push_back(constant(
+        "umbilic-invariant-tolerance", options.umbilic_invariant_tolerance, defaults.umbilic_invariant_tolerance, "1",
+        "two umbilics may correspond if their (delta, zeta) differ by <= umbilic-invariant-tolerance"));
+    parameters.push_back(constant("samples", features.samples.count, feature_defaults.samples.count, "1",
+                                  "points spread over each model by area"));
+    parameters.push_back(constant("seed", features.samples.seed, feature_defaults.samples.seed, "1",
+                                  "start of the sequence that spreads the points"));
+    parameters.push_back(constant("umbilic-resolution", search.resolution, search_defaults.resolution, "1",
+                                  "a box of the search is split until it is decided or its side relative to the domain "
+                                  "is <= umbilic-resolution"));
+    parameters.push_back(constant("umbilic-boxes", search.boxes_per_patch, search_defaults.boxes_per_patch, "1",
+                                  "boxes of the search per Bezier patch <= umbilic-boxes"));
+    parameters.push_back(constant("umbilic-margin", search.generic_margin, search_defaults.generic_margin, "1",
+                                  "an umbilic is non-generic if its distance from a dividing curve, relative, is <= "
+                                  "umbilic-margin"));
+    return parameters;
+}
+
+std::vector<Parameter> compare_parameters(const CompareOptions& options, const Comparison& comparison) {
+    auto parameters = match_parameters(options.features, options.match, comparison.alignment);
+    parameters.push_back(constant("algorithm", options.algorithm, CompareOptions().algorithm, "1",
+                                  "decision algorithm that gives the level of the verdict"));
+    for (const Tolerance& tolerance : comparison.assessment.tolerances) {
+        parameters.push_back(
+            {tolerance.name, number_json(tolerance.value), tolerance.unit, tolerance.origin, tolerance.inequality});
+    }
+    return parameters;
+}
+
+Json parameters_json(const std::vector<Parameter>& parameters) {
+    Json json = Json::object();
+    for (const Parameter& parameter : parameters) {
+        json[parameter.name] = {{"value", parameter.value},
+                                {"unit", parameter.unit},
+                                {"origin", name(parameter.origin)},
+                                {"meaning", parameter.meaning}};
+    }
+    return json;
+}
+
+}  // namespace umbilic
