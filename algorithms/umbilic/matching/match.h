@@ -7,20 +7,10 @@
 
 #include <umbilic/core/progress.h>
 #include <umbilic/matching/alignment.h>
+#include <umbilic/matching/choices.h>
 #include <umbilic/matching/prepared_model.h>
 
 namespace umbilic {
-
-enum class MethodChoice { automatic, umbilics, moments };
-enum class MirrorChoice { automatic, never };
-enum class ScopeChoice { automatic, global, partial };
-
-/// What is known of the scale. automatic: nothing; fixed: it is 1; range: it lies in [low, high].
-struct ScaleChoice {
-    enum class Kind { automatic, fixed, range } kind = Kind::automatic;
-    double low = 0.0;
-    double high = 0.0;
-};
 
 struct MatchOptions {
     MethodChoice method = MethodChoice::automatic;

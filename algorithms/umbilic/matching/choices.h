@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+namespace umbilic {
+
+enum class MethodChoice { automatic, umbilics, moments };
+enum class MirrorChoice { automatic, never };
+enum class ScopeChoice { automatic, global, partial };
+
+/// What is known of the scale. automatic: nothing; fixed: it is 1; range: it lies in [low, high].
+struct ScaleChoice {
+    enum class Kind { automatic, fixed, range } kind = Kind::automatic;
+    double low = 0.0;
+    double high = 0.0;
+
+    /// True if a scale may be tried: within the range widened by the factor `slack` (>= 1) on both sides.
+    bool allows(double scale, double slack) const {
+        const double low_end = kind == Kind::fixed ? 1.0 : low, high_end = kind == Kind::fixed ? 1.0 : high;
+        return kind == Kind::automatic || (low_end <= scale * slack && scale <= high_end * slack);
+    }
+    /// The nearest allowed scale.
+    double clamp(double scale) const {
+        if (kind == Kind::automatic) return scale;
+        if (kind == Kind::fixed) return 1.0;
+        return scale < low ? low : scale > high ? high : scale;
+    }
+};
+
+}  // namespace umbilic
