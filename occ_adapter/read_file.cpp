@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "read_file.h"
+
+#include <filesystem>
+#include <sstream>
+#include <system_error>
+
+#include <unistd.h>
+
+#include <Standard_Version.hxx>
+#include <fmt/format.h>
+
+#include <umbilic/core/errors.h>
+#include <umbilic/model/serialization.h>
+
+#include "file_format.h"
+#include "reader_process.h"
+
+namespace umbilic {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The path under which another process finds the same file; /proc/self is another place there.
+std::string path_for_reader(const std::string& path) {
+    constexpr std::string_view self = "/proc/self/";
+    if (path.starts_with(self)) return fmt::format("/proc/{}/{}", ::getpid(), path.substr(self.size()));
+    return path;
+}
+
+/// Removes a file that was not finished.
+class Unfinished {
+public:
+    explicit Unfinished(fs::path path) : path_(std::move(path)) {}
+    ~Unfinished() {
+        std::error_code ignored;
+        fs::remove(path_, ignored);
+    }
+    const fs::path& path() const { return path_; }
+
+private:
+    fs::path path_;
+};
+
+void check(const ReadOptions& options) {
+    if (!(options.seconds > 0.0)) throw InvalidInput("time limit for reading: must be positive");
+    if (!(options.display_deflection > 0.0)) throw InvalidInput("display deflection: must be positive");
+}
+
+}  // namespace
+
+ReadResult read_file(const std::string& path, const ReadOptions& options, const Progress& progress) {
+    check(options);
+    describe_file(path);
+    const std::vector<std::string> arguments = {
+        "read", path_for_reader(path), options.display_meshes ? fmt::format("{:a}", options.display_deflection) : "0"};
+    std::istringstream bytes(run_reader(path, arguments, {options.seconds, options.memory}, progress));
+    ReadResult result{read_model(bytes), read_display_meshes(bytes)};
+    result.model.source.path = path;
+    return result;
+}
+
+void write_transformed_step(const std::string& path, const SimilarityTransform& transform, const std::string& step_path,
+                            const ReadOptions& options) {
+    check(options);
+    describe_file(path);
+    const fs::path target(step_path);
+    const Unfinished beside(target.parent_path() / fmt::format(".{}.{}.part", target.filename().string(), ::getpid()));
+    std::vector<std::string> arguments = {"transform", path_for_reader(path), beside.path().string()};
+    const Matrix3 linear = transform.scale * transform.orthogonal();
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 4; ++column)
+            arguments.push_back(fmt::format("{:a}", column < 3 ? linear(row, column) : transform.translation(row)));
+    run_reader(path, arguments, {options.seconds, options.memory}, {});
+    std::error_code error;
+    fs::rename(beside.path(), target, error);
+    if (error) throw InvalidInput(step_path + ": cannot be written (" + error.message() + "); choose another place");
+}
+
+std::string opencascade_version() {
+    return OCC_VERSION_COMPLETE;
+}
+
+}  // namespace umbilic
