@@ -20,12 +20,13 @@
 namespace umbilic::models {
 namespace {
 
+constexpr double kAreaTolerance = 1e-7;   // relative; the default integration is only good to 1e-4
 constexpr double kBesideTop = 0.4;        // poles beside the top of the bulge move by this share
 constexpr double kCurveTolerance = 1e-7;  // of the parameter plane
 
 double area(const TopoDS_Shape& shape) {
     GProp_GProps properties;
-    BRepGProp::SurfaceProperties(shape, properties);
+    BRepGProp::SurfaceProperties(shape, properties, kAreaTolerance);
     return properties.Mass();
 }
 
@@ -95,7 +96,7 @@ Redesign redesigned_bottle(const Bottle& bottle) {
     const auto flat_u = front->UKnotSequence(), flat_v = front->VKnotSequence();
     const double u0 = flat_u(first_u), u1 = flat_u(last_u + 4);
     const double v0 = flat_v(first_v), v1 = flat_v(last_v + 4);
-    const Handle(Geom_Surface) region = new Geom_RectangularTrimmedSurface{bottle.front, u0, u1, v0, v1};
+    const Surface region = new Geom_RectangularTrimmedSurface{bottle.front, u0, u1, v0, v1};
 
     double largest = 0;
     constexpr int grid = 200;

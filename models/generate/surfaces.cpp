@@ -142,7 +142,7 @@ double largest_distance(const BSpline& from, const BSpline& to, int grid) {
     return largest;
 }
 
-TopoDS_Face whole_face(const Handle(Geom_Surface) & surface) {
+TopoDS_Face whole_face(const Surface& surface) {
     return BRepBuilderAPI_MakeFace{surface, kFaceTolerance}.Face();
 }
 

@@ -5,12 +5,14 @@
 #include <vector>
 
 #include <Geom_BSplineSurface.hxx>
+#include <Geom_Surface.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Shape.hxx>
 #include <gp_Pnt.hxx>
 
 namespace umbilic::models {
 
+using Surface = Handle(Geom_Surface);
 using BSpline = Handle(Geom_BSplineSurface);
 
 /// Control points; first index along u, second along v.
@@ -40,7 +42,7 @@ BSpline reapproximated(const BSpline& surface, int degree, int poles_u, int pole
 double largest_distance(const BSpline& from, const BSpline& to, int grid);
 
 /// The face that fills the whole parameter range.
-TopoDS_Face whole_face(const Handle(Geom_Surface) & surface);
+TopoDS_Face whole_face(const Surface& surface);
 
 /// Faces sewn into one shell where their edges coincide.
 TopoDS_Shape shell_of(const std::vector<TopoDS_Face>& faces);

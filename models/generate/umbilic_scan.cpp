@@ -29,7 +29,7 @@ struct Derivatives {
     gp_Vec u, v, uu, uv, vv, uuu, uuv, uvv, vvv;
 };
 
-Derivatives evaluate(const Handle(Geom_Surface) & surface, double u, double v) {
+Derivatives evaluate(const Surface& surface, double u, double v) {
     Derivatives d;
     surface->D3(u, v, d.p, d.u, d.v, d.uu, d.vv, d.uv, d.uuu, d.vvv, d.uuv, d.uvv);
     return d;
@@ -37,7 +37,7 @@ Derivatives evaluate(const Handle(Geom_Surface) & surface, double u, double v) {
 
 // Half difference and mixed part of the second form in the orthonormal frame (r_u, n x r_u):
 // both vanish exactly at umbilics.
-Complex deviator(const Handle(Geom_Surface) & surface, double u, double v, double& area) {
+Complex deviator(const Surface& surface, double u, double v, double& area) {
     gp_Pnt p;
     gp_Vec ru, rv, ruu, rvv, ruv;
     surface->D2(u, v, p, ru, rv, ruu, rvv, ruv);
@@ -89,7 +89,7 @@ double distance_to_dividing_curves(Complex alpha, Complex beta) {
     return distance;
 }
 
-double knot_margin(const Handle(Geom_Surface) & surface, double u, double v) {
+double knot_margin(const Surface& surface, double u, double v) {
     const auto spline = Handle(Geom_BSplineSurface)::DownCast(surface);
     if (spline.IsNull()) return 1;
     const auto margin = [](const TColStd_Array1OfReal& knots, double t) {
@@ -106,7 +106,7 @@ double knot_margin(const Handle(Geom_Surface) & surface, double u, double v) {
 }
 
 // The Monge form at a point known to be an umbilic: the covariant derivative of the second form.
-Umbilic describe(const Handle(Geom_Surface) & surface, double u, double v) {
+Umbilic describe(const Surface& surface, double u, double v) {
     const Derivatives d = evaluate(surface, u, v);
     const gp_Vec first[2] = {d.u, d.v};
     const gp_Vec second[2][2] = {{d.uu, d.uv}, {d.uv, d.vv}};
@@ -164,7 +164,7 @@ double turn(Complex from, Complex to) {
 
 }  // namespace
 
-std::vector<double> sample_parameters(const Handle(Geom_Surface) & surface, bool along_u, double low, double high,
+std::vector<double> sample_parameters(const Surface& surface, bool along_u, double low, double high,
                                       int cells_per_span) {
     std::vector<double> breaks{low, high};
     if (const auto spline = Handle(Geom_BSplineSurface)::DownCast(surface); !spline.IsNull())
@@ -178,7 +178,7 @@ std::vector<double> sample_parameters(const Handle(Geom_Surface) & surface, bool
     return result;
 }
 
-std::vector<Umbilic> scan_umbilics(const Handle(Geom_Surface) & surface, double u0, double u1, double v0, double v1,
+std::vector<Umbilic> scan_umbilics(const Surface& surface, double u0, double u1, double v0, double v1,
                                    const ScanOptions& options) {
     const std::vector<double> us = sample_parameters(surface, true, u0, u1, options.cells_per_span);
     const std::vector<double> vs = sample_parameters(surface, false, v0, v1, options.cells_per_span);
@@ -227,7 +227,7 @@ std::vector<Umbilic> scan_umbilics(const Handle(Geom_Surface) & surface, double 
     return found;
 }
 
-bool all_umbilic(const Handle(Geom_Surface) & surface, double u0, double u1, double v0, double v1, double size) {
+bool all_umbilic(const Surface& surface, double u0, double u1, double v0, double v1, double size) {
     constexpr int steps = 7;  // inner points only: borders may be poles
     for (int i = 1; i < steps; ++i)
         for (int j = 1; j < steps; ++j) {

@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
-#include <Geom_Surface.hxx>
 #include <gp_Dir.hxx>
 #include <gp_Pnt.hxx>
+
+#include "surfaces.h"
 
 namespace umbilic::models {
 
@@ -38,15 +39,15 @@ struct ScanOptions {
 /// and the local minima of their difference give the starts, Newton's method on E M - F L and
 /// E N - G L the points. Derivatives come from OpenCASCADE. A check by other means than the
 /// library's own solver, and no proof of completeness.
-std::vector<Umbilic> scan_umbilics(const Handle(Geom_Surface) & surface, double u0, double u1, double v0, double v1,
+std::vector<Umbilic> scan_umbilics(const Surface& surface, double u0, double u1, double v0, double v1,
                                    const ScanOptions& options = {});
 
 /// Parameters from `low` to `high` along u or v: cells_per_span equal steps in every knot span.
-std::vector<double> sample_parameters(const Handle(Geom_Surface) & surface, bool along_u, double low, double high,
+std::vector<double> sample_parameters(const Surface& surface, bool along_u, double low, double high,
                                       int cells_per_span);
 
 /// True if the principal curvatures agree at every sampled point, relative to 1 / `size` (mm):
 /// a plane or a sphere, whatever its representation.
-bool all_umbilic(const Handle(Geom_Surface) & surface, double u0, double u1, double v0, double v1, double size);
+bool all_umbilic(const Surface& surface, double u0, double u1, double v0, double v1, double size);
 
 }  // namespace umbilic::models
