@@ -38,6 +38,8 @@ struct NodeComparison {
 /// The nodes of one model against the other.
 struct DirectedComparison {
     std::vector<NodeComparison> nodes;
+    /// Over all nodes where the scope is global; over the overlap (distance within spread_factor times the weak test's
+    /// tolerance, see thresholds.h) where it is partial.
     Statistics distance, kappa_max, kappa_min, direction;
     double coverage = 0.0;  ///< share of area whose nodes are covered
 };
@@ -78,10 +80,12 @@ struct FaceCoverage {
 
 /// The three tests of the thesis (4.4) in both directions.
 struct Assessment {
-    DirectedComparison suspect_on_original;  ///< the statistics of the verdict
+    MatchScope scope = MatchScope::global;   ///< which nodes the statistics are over, and which direction decides
+    DirectedComparison suspect_on_original;  ///< the statistics a report shows first
     DirectedComparison original_on_suspect;
-    bool weak_passed = false;
-    bool intermediate_passed = false;
+    bool flipped = false;      ///< the suspect's normals were reversed to agree with the original's (open surfaces)
+    bool weak_passed = false;  ///< by the thresholds of decision algorithm 2
+    bool intermediate_passed = false;  ///< the same; never without weak_passed
     StrongTest strong;
     double cell = 0.0;  ///< delta_s, relative to a face's domain
     LocalSimilarity distance, kappa_max, kappa_min, direction;

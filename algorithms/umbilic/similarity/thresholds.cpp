@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <umbilic/similarity/thresholds.h>
+
+#include <algorithm>
+
+#include <umbilic/similarity/statistics.h>
+
+namespace umbilic {
+
+namespace {
+
+bool curvatures_agree(const DirectedComparison& direction, const Assessment& assessment) {
+    const double kappa = find_tolerance(assessment.tolerances, "kappa").value;
+    return comparable(direction) && within_thresholds(direction.kappa_max, kappa) &&
+           within_thresholds(direction.kappa_min, kappa) &&
+           (direction.direction.count == 0 ||
+            within_thresholds(direction.direction, find_tolerance(assessment.tolerances, "direction").value));
+}
+
+bool partial_overlap_agrees(const DirectedComparison& direction, const Assessment& assessment) {
+    const double distance = find_tolerance(assessment.tolerances, "distance").value;
+    return direction.coverage >= least_overlap && within_thresholds(direction.distance, distance) &&
+           direction.distance.mean <= partial_mean * distance && curvatures_agree(direction, assessment);
+}
+
+const DirectedComparison& better_covered(const Assessment& assessment) {
+    const DirectedComparison& suspect = assessment.suspect_on_original;
+    const DirectedComparison& original = assessment.original_on_suspect;
+    return original.coverage > suspect.coverage ? original : suspect;
+}
+
+}  // namespace
+
+bool within_thresholds(const Statistics& statistics, double tolerance) {
+    return statistics.count > 0 && statistics.mean <= tolerance &&
+           statistics.mean + 2.0 * statistics.standard_deviation <= spread_factor * tolerance;
+}
+
+bool within_maximum(const Statistics& statistics, double tolerance) {
+    return statistics.count > 0 && statistics.max <= tolerance;
+}
+
+std::vector<const DirectedComparison*> deciding_directions(const Assessment& assessment) {
+    if (assessment.scope == MatchScope::partial) return {&better_covered(assessment)};
+    return {&assessment.suspect_on_original, &assessment.original_on_suspect};
+}
+
+bool lies_wholly(const DirectedComparison& direction, double distance) {
+    return direction.coverage >= whole_share && std::ranges::all_of(direction.nodes, [&](const NodeComparison& node) {
+               return node.distance <= spread_factor * distance;
+           });
+}
+
+bool comparable(const DirectedComparison& direction) {
+    return direction.kappa_max.count > 0 && direction.kappa_max.count >= comparable_share * direction.distance.count;
+}
+
+bool passes_weak(const Assessment& assessment) {
+    const double distance = find_tolerance(assessment.tolerances, "distance").value;
+    return std::ranges::all_of(deciding_directions(assessment), [&](const DirectedComparison* direction) {
+        if (assessment.scope == MatchScope::partial && direction->coverage < whole_share)
+            return partial_overlap_agrees(*direction, assessment);
+        return within_thresholds(direction->distance, distance);
+    });
+}
+
+bool passes_intermediate(const Assessment& assessment) {
+    return std::ranges::all_of(deciding_directions(assessment), [&](const DirectedComparison* direction) {
+        return curvatures_agree(*direction, assessment);
+    });
+}
+
+bool overlap_agrees(const Assessment& assessment) {
+    const double limit = spread_factor * find_tolerance(assessment.tolerances, "distance").value;
+    DirectedComparison overlap = better_covered(assessment);
+    overlap.distance = statistics(overlap.nodes, Quantity::distance, limit);
+    overlap.kappa_max = statistics(overlap.nodes, Quantity::kappa_max, limit);
+    overlap.kappa_min = statistics(overlap.nodes, Quantity::kappa_min, limit);
+    overlap.direction = statistics(overlap.nodes, Quantity::direction, limit);
+    return partial_overlap_agrees(overlap, assessment);
+}
+
+}  // namespace umbilic
