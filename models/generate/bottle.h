@@ -18,7 +18,7 @@ struct Bottle {
     std::vector<BSpline> faces() const { return {front, back, neck_front, neck_back}; }
 };
 
-/// A shampoo bottle, 84 x 50 x 204 mm, without symmetry; its front has three star umbilics.
+/// A shampoo bottle, 83 x 54 x 204 mm, without symmetry; its front has three star umbilics.
 Bottle bottle();
 
 /// Another design: slimmer, taller, pear-shaped.

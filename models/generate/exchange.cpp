@@ -13,11 +13,17 @@
 #include <IGESData_IGESModel.hxx>
 #include <Interface_HArray1OfHAsciiString.hxx>
 #include <Interface_Static.hxx>
+#include <STEPCAFControl_Writer.hxx>
 #include <STEPControl_Reader.hxx>
-#include <STEPControl_Writer.hxx>
 #include <StepData_StepModel.hxx>
 #include <TCollection_HAsciiString.hxx>
+#include <TDF_Label.hxx>
+#include <TDataStd_Name.hxx>
+#include <TDocStd_Document.hxx>
 #include <TopExp_Explorer.hxx>
+#include <XCAFApp_Application.hxx>
+#include <XCAFDoc_DocumentTool.hxx>
+#include <XCAFDoc_ShapeTool.hxx>
 
 namespace umbilic::models {
 namespace {
@@ -35,12 +41,18 @@ bool has_solid(const TopoDS_Shape& shape) {
 }
 
 void write_step(const TopoDS_Shape& shape, const std::string& part_name, const std::filesystem::path& path) {
-    STEPControl_Writer writer;
+    // Through a document, because the plain writer appends a running number to the name.
+    const Handle(XCAFApp_Application) application = XCAFApp_Application::GetApplication();
+    Handle(TDocStd_Document) document;
+    application->NewDocument("BinXCAF", document);
+    const TDF_Label part = XCAFDoc_DocumentTool::ShapeTool(document->Main())->AddShape(shape, false);
+    TDataStd_Name::Set(part, part_name.c_str());
+    STEPCAFControl_Writer writer;
     Interface_Static::SetCVal("write.step.schema", "AP214IS");
-    Interface_Static::SetCVal("write.step.product.name", part_name.c_str());
-    if (writer.Transfer(shape, STEPControl_AsIs) != IFSelect_RetDone)
-        throw std::runtime_error(path.string() + ": STEP transfer failed");
-    APIHeaderSection_MakeHeader header{writer.Model()};
+    const bool transferred = writer.Transfer(document, STEPControl_AsIs);
+    application->Close(document);
+    if (!transferred) throw std::runtime_error(path.string() + ": STEP transfer failed");
+    APIHeaderSection_MakeHeader header{writer.ChangeWriter().Model()};
     header.SetName(text(path.filename().string()));
     header.SetTimeStamp(text(kStepDate));
     header.SetAuthorValue(1, text(kAuthor));

@@ -8,7 +8,7 @@ namespace umbilic::models {
 /// Car hood, one bicubic face of 8 x 8 poles, 1.3 x 1.2 m; mirror-symmetric in x = 0 as hoods are.
 TopoDS_Shape hood();
 
-/// Mask-like relief, one bicubic face of 26 x 26 poles, about 158 x 204 x 36 mm, not symmetric.
+/// Mask-like relief, one bicubic face of 26 x 26 poles, about 158 x 204 x 42 mm, not symmetric.
 TopoDS_Shape mask();
 
 /// The wave-like bicubic Bezier patch over the unit square (1 mm) with five known umbilics: control
