@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <umbilic/matching/decision.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include <Eigen/Eigenvalues>
+
+#include <umbilic/matching/evidence.h>
+#include <umbilic/matching/tolerances.h>
+
+namespace umbilic {
+
+namespace {
+
+/// Share of a model's area that counts as all of it: samples on borders and in notches of re-approximated copies.
+constexpr double whole = 0.95;
+/// A coarser tolerance must raise the coverage by this factor to be preferred.
+constexpr double worthwhile = 1.1;
+/// Satisfied equations that a pose uses up, and those that must be left over.
+constexpr int pose_unknowns = 4, spare_partial = 2, spare_whole = 1;
+/// A motion by this part of the length that stays within the tolerance leaves the pose undetermined.
+constexpr double sliding = 0.1;
+/// Two fits are equally good if the greater rms is within this factor of the smaller one (or below `negligible_rms` of
+/// the length, which is rounding in files) and the shares differ by less than `equal_share`.
+constexpr double equal_rms = 1.15, negligible_rms = 1e-7, equal_share = 0.02;
+/// Runners-up that are reported.
+constexpr std::size_t most_runners_up = 10;
+
+struct Step {
+    double relative = 0.0;        ///< tolerance as a part of the length
+    double either_share = 0.0;    ///< needed of suspect or original
+    double suspect_share = 0.0;   ///< needed of the suspect
+    double original_share = 0.0;  ///< needed of the original
+    FitLevel level = FitLevel::found;
+};
+
+constexpr std::array<Step, 4> steps = {{{FitTolerance::exact, 0.2, 0.0, 0.0, FitLevel::found},
+                                        {FitTolerance::reapproximated, 0.6, 0.0, 0.0, FitLevel::found},
+                                        {FitTolerance::measured, whole, whole, 0.3, FitLevel::found},
+                                        {FitTolerance::resembling, whole, whole, whole, FitLevel::compatible}}};
+
+/// The step that says how much must coincide at a tolerance.
+std::size_t step_of(double relative_tolerance) {
+    std::size_t i = 0;
+    // The user's tolerance, or what files leave open, may lie a little above a step.
+    while (i + 1 < steps.size() && relative_tolerance > 2.0 * steps[i].relative) ++i;
+    return i;
+}
+
+std::string printed(const char* format, double a, double b = 0.0) {
+    std::array<char, 128> text;
+    std::snprintf(text.data(), text.size(), format, a, b);
+    return text.data();
+}
+
+Fit fit_at(const ScoredPose& pose, const PoseSearch& search, double tolerance) {
+    Fit fit{.tolerance = tolerance};
+    fit.suspect = coverage(search.suspect().model.features.samples, pose.suspect_distances, tolerance);
+    fit.original = coverage(search.original().model.features.samples, pose.original_distances, tolerance);
+    return fit;
+}
+
+bool enough(const Fit& fit, const Step& step) {
+    return std::max(fit.suspect.share, fit.original.share) >= step.either_share &&
+           fit.suspect.share >= step.suspect_share && fit.original.share >= step.original_share;
+}
+
+bool as_wholes(const Fit& fit) {
+    return fit.suspect.share >= whole && fit.original.share >= whole;
+}
+
+/// Least root mean square residual, over all motions, of a motion by 1 mm.
+double weakest_motion(const ScoredPose& pose, bool free_scale) {
+    const int n = free_scale ? 7 : 6;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(pose.refinement.normal_matrix.topLeftCorner(n, n),
+                                                                Eigen::EigenvaluesOnly);
+    return std::sqrt(std::max(solver.eigenvalues()[0], 0.0));
+}
+
+void demand_evidence(const ScoredPose& pose, const PoseSearch& search, Fit& fit) {
+    const double scale = pose.hypothesis.original_suspect.scale;
+    const bool larger = search.suspect_is_larger(scale);
+    // The smaller model lies on the larger one; its samples say what coincides.
+    const int equations =
+        larger ? satisfied_equations(search.original().model, pose.original_distances, fit.tolerance, 1.0)
+               : satisfied_equations(search.suspect().model, pose.suspect_distances, fit.tolerance, scale);
+    const ScaleChoice& choice = search.options().scale;
+    const bool known = choice.kind == ScaleChoice::Kind::fixed || std::abs(scale - 1.0) * pose.length <= fit.tolerance;
+    const int spare = equations - pose_unknowns + (known ? 1 : 0);
+    if (spare < (as_wholes(fit) ? spare_whole : spare_partial)) {
+        fit.level = FitLevel::compatible;
+        fit.why = "what coincides are planes, cylinders or spheres that fit many shapes";
+        return;
+    }
+    const bool free_scale = choice.kind != ScaleChoice::Kind::fixed;
+    if (!as_wholes(fit) && weakest_motion(pose, free_scale) * sliding * pose.length < fit.tolerance) {
+        fit.level = FitLevel::compatible;
+        fit.why = "what coincides can slide along itself, so that the pose is not determined";
+    }
+}
+
+/// Share of a model that its own motion lays on itself.
+double self_coverage(const Ground& model, const SimilarityTransform& motion, double tolerance) {
+    return coverage(model.model.features.samples, sample_distances(model, model.model, motion, tolerance), tolerance)
+        .share;
+}
+
+struct Ranked {
+    std::size_t index = 0;
+    Fit fit;
+};
+
+bool equally_good(const ScoredPose& best, const Fit& best_fit, const Fit& other_fit) {
+    const double floor = negligible_rms * best.length;
+    return other_fit.suspect.share >= best_fit.suspect.share - equal_share &&
+           other_fit.original.share >= best_fit.original.share - equal_share &&
+           other_fit.suspect.rms <= equal_rms * std::max(best_fit.suspect.rms, floor);
+}
+
+/// Order among equals: unmirrored before mirrored, then the one that turns least, then the nearest.
+bool plainer(const SimilarityTransform& a, const SimilarityTransform& b) {
+    if (a.mirrored != b.mirrored) return !a.mirrored;
+    const double angle_a = rotation_angle_between(a.rotation, Matrix3::Identity());
+    const double angle_b = rotation_angle_between(b.rotation, Matrix3::Identity());
+    constexpr double same_angle = 1e-6;  // radians; only orders equals
+    if (std::abs(angle_a - angle_b) > same_angle) return angle_a < angle_b;
+    return a.translation.norm() < b.translation.norm();
+}
+
+PoseCandidate candidate(const ScoredPose& pose, const Fit& fit) {
+    return {pose.hypothesis.original_suspect,
+            pose.hypothesis.method,
+            fit.suspect.share,
+            fit.original.share,
+            fit.suspect.rms,
+            fit.suspect.max};
+}
+
+std::string coverage_text(const Fit& fit) {
+    return printed("%.1f %% of the suspect", 100.0 * fit.suspect.share) +
+           printed(" and %.1f %% of the original coincide within %.3g mm", 100.0 * fit.original.share, fit.tolerance);
+}
+
+}  // namespace
+
+Fit judge(const ScoredPose& pose, const PoseSearch& search) {
+    const double stated = search.stated_tolerance(pose.hypothesis.original_suspect.scale);
+    Fit fit;
+    std::size_t step = 0;
+    if (search.options().tolerance) {
+        fit = fit_at(pose, search, *search.options().tolerance);
+        step = step_of(fit.tolerance / pose.length);
+    } else {
+        fit = fit_at(pose, search, FitTolerance::exact * pose.length + stated);
+        for (std::size_t coarser = 1; coarser < steps.size(); ++coarser) {
+            const bool sufficient = enough(fit, steps[step]);
+            if (sufficient && steps[coarser].level != FitLevel::found) break;
+            const Fit next = fit_at(pose, search, steps[coarser].relative * pose.length + stated);
+            const double gain =
+                std::max(next.suspect.share, next.original.share) / std::max(fit.suspect.share, fit.original.share);
+            if (sufficient && !(gain > worthwhile && enough(next, steps[coarser]))) continue;
+            fit = next;
+            step = coarser;
+        }
+    }
+    if (!enough(fit, steps[step])) {
+        fit.why = "too little coincides";
+        return fit;
+    }
+    fit.exact = step == 0;
+    fit.level = steps[step].level;
+    if (fit.level == FitLevel::compatible) fit.why = "the shapes resemble each other but do not coincide";
+    if (fit.level == FitLevel::found) demand_evidence(pose, search, fit);
+    return fit;
+}
+
+bool settled(const PoseSearch& search) {
+    if (search.poses().empty()) return false;
+    const Fit fit = judge(search.poses().front(), search);
+    return fit.level == FitLevel::found && fit.exact && std::max(fit.suspect.share, fit.original.share) >= whole;
+}
+
+Alignment decide_alignment(PoseSearch& search, const std::string& tried, const Progress& progress) {
+    Alignment alignment;
+    if (search.poses().empty()) {
+        alignment.why = "No method proposes a pose: " + tried + ".";
+        return alignment;
+    }
+    search.polish(0, progress);
+    const auto& poses = search.poses();
+
+    // The best pose of the highest level.
+    Ranked best{0, judge(poses[0], search)};
+    for (std::size_t i = 1; i < poses.size(); ++i) {
+        Fit fit = judge(poses[i], search);
+        if (fit.level > best.fit.level) best = {i, std::move(fit)};
+    }
+    // At one tolerance for all: poses that do as well, and the plainest of them as the winner.
+    std::vector<Ranked> equals = {best};
+    std::vector<Ranked> others;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        if (i == best.index) continue;
+        progress.check();
+        Ranked other{i, fit_at(poses[i], search, best.fit.tolerance)};
+        const bool equal = best.fit.level != FitLevel::none && equally_good(poses[best.index], best.fit, other.fit) &&
+                           search.distance().different(poses[best.index].hypothesis.original_suspect,
+                                                       poses[i].hypothesis.original_suspect);
+        (equal ? equals : others).push_back(std::move(other));
+    }
+    std::stable_sort(equals.begin(), equals.end(), [&](const Ranked& a, const Ranked& b) {
+        return plainer(poses[a.index].hypothesis.original_suspect, poses[b.index].hypothesis.original_suspect);
+    });
+    if (equals.front().index != best.index) {
+        const std::size_t winner = equals.front().index;
+        search.polish(winner, progress);
+        Fit fit = fit_at(poses[winner], search, best.fit.tolerance);
+        fit.level = best.fit.level;
+        fit.exact = best.fit.exact;
+        fit.why = best.fit.why;
+        best = {winner, std::move(fit)};
+    }
+    const ScoredPose& winner = poses[best.index];
+    const SimilarityTransform& pose = winner.hypothesis.original_suspect;
+
+    std::size_t strangers = 0;
+    for (std::size_t k = 1; k < equals.size(); ++k) {
+        progress.check();
+        const SimilarityTransform& other = poses[equals[k].index].hypothesis.original_suspect;
+        const bool symmetry =
+            best.fit.exact ||
+            self_coverage(search.original(), compose(other, pose.inverse()), best.fit.tolerance) >= whole ||
+            self_coverage(search.suspect(), compose(pose.inverse(), other), best.fit.tolerance / pose.scale) >= whole;
+        if (symmetry)
+            alignment.symmetries.push_back(other);
+        else
+            ++strangers;
+        alignment.runners_up.push_back(candidate(poses[equals[k].index], equals[k].fit));
+    }
+    std::stable_sort(others.begin(), others.end(), [&](const Ranked& a, const Ranked& b) {
+        return a.fit.suspect.soft + a.fit.original.soft > b.fit.suspect.soft + b.fit.original.soft;
+    });
+    for (const Ranked& other : others) {
+        const SimilarityTransform& its_pose = poses[other.index].hypothesis.original_suspect;
+        if (alignment.runners_up.size() >= most_runners_up) break;
+        if (search.distance().different(pose, its_pose))
+            alignment.runners_up.push_back(candidate(poses[other.index], other.fit));
+    }
+
+    const Fit& fit = best.fit;
+    alignment.tolerance = fit.tolerance;
+    if (fit.level == FitLevel::none) {
+        alignment.why =
+            "No pose lays enough of one model on the other: at best " + coverage_text(fit) + "; " + tried + ".";
+        alignment.runners_up.insert(alignment.runners_up.begin(), candidate(winner, fit));
+        return alignment;
+    }
+    alignment.method = winner.hypothesis.method;
+    alignment.original_suspect = pose;
+    alignment.scope = as_wholes(fit) ? MatchScope::global : MatchScope::partial;
+    alignment.rms = fit.suspect.rms;
+    alignment.max = fit.suspect.max;
+    alignment.relative_max = fit.suspect.max / search.original().model.model.size();
+    alignment.suspect_coverage = fit.suspect.share;
+    alignment.original_coverage = fit.original.share;
+    alignment.why = coverage_text(fit);
+    if (strangers > 0) {
+        alignment.status = AlignmentStatus::ambiguous;
+        alignment.why +=
+            "; but " + std::to_string(strangers) + " different pose" + (strangers > 1 ? "s fit" : " fits") + " as well";
+    } else if (fit.level == FitLevel::compatible) {
+        alignment.status = AlignmentStatus::compatible;
+        alignment.why += "; but " + fit.why;
+    } else {
+        alignment.status = AlignmentStatus::found;
+        if (!alignment.symmetries.empty())
+            alignment.why += "; by symmetry or repetition " + std::to_string(alignment.symmetries.size()) +
+                             " more pose" + (alignment.symmetries.size() > 1 ? "s fit" : " fits") + " as well";
+    }
+    alignment.why += ". Tried: " + tried + ".";
+    return alignment;
+}
+
+}  // namespace umbilic

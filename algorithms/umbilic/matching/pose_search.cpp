@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <umbilic/matching/pose_search.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <umbilic/matching/tolerances.h>
+
+namespace umbilic {
+
+namespace {
+
+/// Distance at which a sample still adds to the score of an unrefined hypothesis, relative to the smaller length: a few
+/// degrees of error at half a length.
+constexpr double coarse_tolerance = 0.05;
+/// Samples that judge an unrefined hypothesis, and points that refine it.
+constexpr int quick_samples = 48;
+constexpr int refining_points = 400;
+/// Hypotheses scored between two updates of the score that gives up early. Fixed, so that results do not depend on
+/// threads.
+constexpr std::size_t batch = 64;
+/// The larger model is the ground if it is longer by this factor; otherwise the original is.
+constexpr double larger = 1.5;
+/// Models whose lengths differ by more than this factor after scaling are not compared: samples would be too sparse.
+constexpr double greatest_length_ratio = 50.0;
+
+std::vector<WeightedPoint> spread_points(const std::vector<AreaSample>& samples, int count) {
+    std::vector<WeightedPoint> points;
+    for (const int i : spread_samples(samples, count)) points.push_back({samples[i].curvature.point, 1.0});
+    return points;
+}
+
+std::vector<WeightedPoint> all_points(const std::vector<AreaSample>& samples) {
+    std::vector<WeightedPoint> points;
+    for (const AreaSample& sample : samples) points.push_back({sample.curvature.point, sample.weight});
+    return points;
+}
+
+/// What a model's file leaves open: the greatest conversion error and stated tolerance of its faces, mm.
+double stated(const Model& model) {
+    double greatest = 0.0;
+    for (const Face& face : model.faces) greatest = std::max(greatest, face.conversion_error + face.tolerance);
+    return greatest;
+}
+
+}  // namespace
+
+PoseSearch::PoseSearch(const PreparedModel& original, const PreparedModel& suspect, const MatchOptions& options)
+    : original_(original),
+      suspect_(suspect),
+      options_(options),
+      distance_(suspect.features),
+      original_length_(shape_size(original.features).length),
+      suspect_length_(shape_size(suspect.features).length) {}
+
+double PoseSearch::length(double scale) const {
+    return std::min(original_length_, scale * suspect_length_);
+}
+
+bool PoseSearch::suspect_is_larger(double scale) const {
+    return scale * suspect_length_ > larger * original_length_;
+}
+
+double PoseSearch::stated_tolerance(double scale) const {
+    return std::min(stated(original_.model.model) + scale * stated(suspect_.model.model),
+                    greatest_stated_tolerance * length(scale));
+}
+
+void PoseSearch::consider(const Proposals& proposals, int keep, double start_cutoff, const Progress& progress) {
+    const std::vector<int> original_few = spread_samples(original_.model.features.samples, quick_samples);
+    const std::vector<int> suspect_few = spread_samples(suspect_.model.features.samples, quick_samples);
+    const auto& all = proposals.poses;
+    std::vector<double> scores(all.size(), 0.0);
+    std::vector<double> best;  // scores of the best `keep` so far, for giving up early
+    for (std::size_t begin = 0; begin < all.size(); begin += batch) {
+        progress.report(0.5 * begin / all.size(), "scoring poses");
+        const std::size_t end = std::min(begin + batch, all.size());
+        // Near duplicates crowd the best places, so the bar stays well below the worst of them.
+        const double bar = static_cast<int>(best.size()) < keep ? 0.0 : 0.5 * best.back();
+        tbb::parallel_for(begin, end, [&](std::size_t i) {
+            const SimilarityTransform& pose = all[i].original_suspect;
+            const double ratio = pose.scale * suspect_length_ / original_length_;
+            if (!(ratio < greatest_length_ratio && 1.0 / ratio < greatest_length_ratio)) return;
+            const double tolerance = coarse_tolerance * length(pose.scale);
+            scores[i] =
+                suspect_is_larger(pose.scale)
+                    ? quick_score(suspect_, original_.model, original_few, pose.inverse(), tolerance / pose.scale, bar)
+                    : quick_score(original_, suspect_.model, suspect_few, pose, tolerance, bar);
+        });
+        best.insert(best.end(), scores.begin() + begin, scores.begin() + end);
+        std::sort(best.rbegin(), best.rend());
+        best.resize(std::min<std::size_t>(best.size(), keep));
+    }
+
+    std::vector<std::size_t> order(all.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return scores[a] > scores[b]; });
+    std::vector<PoseHypothesis> chosen;
+    for (const std::size_t i : order) {
+        if (static_cast<int>(chosen.size()) == keep || scores[i] == 0.0) break;
+        if (std::none_of(chosen.begin(), chosen.end(), [&](const PoseHypothesis& other) {
+                return distance_.relative(all[i].original_suspect, other.original_suspect) < same_hypothesis;
+            }))
+            chosen.push_back(all[i]);
+    }
+
+    const auto original_points = spread_points(original_.model.features.samples, refining_points);
+    const auto suspect_points = spread_points(suspect_.model.features.samples, refining_points);
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+        progress.report(0.5 + 0.5 * i / chosen.size(), "refining poses");
+        ScoredPose pose = refined(chosen[i], original_points, suspect_points, start_cutoff, progress);
+        const auto same = std::find_if(poses_.begin(), poses_.end(), [&](const ScoredPose& other) {
+            return distance_.relative(pose.hypothesis.original_suspect, other.hypothesis.original_suspect) < same_pose;
+        });
+        if (same == poses_.end())
+            poses_.push_back(std::move(pose));
+        else if (same->rank < pose.rank) {
+            pose.hypothesis.method = same->hypothesis.method;  // the method that came to it first
+            *same = std::move(pose);
+        }
+    }
+    std::stable_sort(poses_.begin(), poses_.end(),
+                     [](const ScoredPose& a, const ScoredPose& b) { return a.rank > b.rank; });
+}
+
+void PoseSearch::polish(std::size_t index, const Progress& progress) {
+    ScoredPose better = refined(poses_[index].hypothesis, all_points(original_.model.features.samples),
+                                all_points(suspect_.model.features.samples), FitTolerance::resembling, progress);
+    if (better.rank >= poses_[index].rank) poses_[index] = std::move(better);
+}
+
+ScoredPose PoseSearch::refined(const PoseHypothesis& hypothesis, const std::vector<WeightedPoint>& original_points,
+                               const std::vector<WeightedPoint>& suspect_points, double start_cutoff,
+                               const Progress& progress) const {
+    ScoredPose result{.hypothesis = hypothesis};
+    SimilarityTransform& pose = result.hypothesis.original_suspect;
+    RefineOptions options{.scale = options_.scale, .start_cutoff = start_cutoff};
+    if (suspect_is_larger(pose.scale)) {
+        if (options.scale.kind == ScaleChoice::Kind::range)
+            options.scale = {ScaleChoice::Kind::range, 1.0 / options_.scale.high, 1.0 / options_.scale.low};
+        result.refinement = refine(suspect_, original_points, pose.inverse(), options, progress);
+        pose = result.refinement.original_suspect.inverse();
+    } else {
+        result.refinement = refine(original_, suspect_points, pose, options, progress);
+        pose = result.refinement.original_suspect;
+    }
+
+    result.length = length(pose.scale);
+    const double stated = stated_tolerance(pose.scale);
+    const double limit = options_.tolerance.value_or(FitTolerance::resembling * result.length + stated);
+    result.suspect_distances = sample_distances(original_, suspect_.model, pose, limit);
+    result.original_distances = sample_distances(suspect_, original_.model, pose.inverse(), limit / pose.scale);
+    for (double& d : result.original_distances) d *= pose.scale;
+    const double fine = options_.tolerance.value_or(FitTolerance::reapproximated * result.length + stated);
+    result.rank = coverage(suspect_.model.features.samples, result.suspect_distances, fine).soft +
+                  coverage(original_.model.features.samples, result.original_distances, fine).soft;
+    return result;
+}
+
+}  // namespace umbilic

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <umbilic/matching/refine.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <oneapi/tbb/parallel_for.h>
+
+namespace umbilic {
+
+namespace {
+
+using Vector7 = Eigen::Matrix<double, 7, 1>;
+
+/// Tukey's cut-off in standard deviations, and the standard deviation of a normal distribution in medians of |r|.
+constexpr double tukey = 4.7, median_to_deviation = 1.48;
+/// Until the cut-off is this part of the length it shrinks by `forced_shrink` at least after every step shorter than
+/// itself: a median that foreign material dominates would never let go of it.
+constexpr double close_cutoff = 1e-3, forced_shrink = 0.6;
+/// The cut-off never falls below this part of the length, far above the rounding of coordinates.
+constexpr double least_cutoff = 1e-9;
+/// Longest step: radians, log(scale), and part of the length.
+constexpr double longest_turn = 0.5, longest_scaling = 0.3, longest_shift = 0.5;
+/// A step shorter than this part of the radius ends the refinement; so does one that no longer shrinks once it is below
+/// `stagnation`.
+constexpr double rounding_step = 1e-14, stagnation = 1e-10;
+
+struct Foot {
+    Vector3 moved, normal;
+    double residual = 0.0;  ///< signed distance along the normal, mm of the original
+    bool used = false;
+};
+
+double size_of(std::span<const WeightedPoint> points) {
+    Vector3 centre = Vector3::Zero();
+    double weight = 0.0, square = 0.0;
+    for (const WeightedPoint& p : points) {
+        centre += p.weight * p.point;
+        weight += p.weight;
+    }
+    centre /= weight;
+    for (const WeightedPoint& p : points) square += p.weight * (p.point - centre).squaredNorm();
+    return 2.0 * std::sqrt(square / weight);
+}
+
+std::vector<Foot> find_feet(const Ground& original, std::span<const WeightedPoint> points,
+                            const SimilarityTransform& pose, double cutoff) {
+    std::vector<Foot> feet(points.size());
+    tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
+        Foot& foot = feet[i];
+        foot.moved = pose.apply(points[i].point);
+        const auto closest = original.model.tree.closest(foot.moved, cutoff);
+        if (!closest || closest->distance > cutoff) return;
+        const auto normal = original.normals.at(closest->at);
+        if (!normal) return;
+        const Vector3 offset = foot.moved - closest->point;
+        foot.normal = *normal;
+        foot.residual = normal->dot(offset);
+        const double beside = (offset - foot.residual * *normal).norm();
+        foot.used = closest->kind == FootKind::interior || beside <= std::abs(foot.residual);
+    });
+    return feet;
+}
+
+double median_residual(const std::vector<Foot>& feet) {
+    std::vector<double> residuals;
+    for (const Foot& foot : feet)
+        if (foot.used) residuals.push_back(std::abs(foot.residual));
+    if (residuals.empty()) return 0.0;
+    const auto middle = residuals.begin() + residuals.size() / 2;
+    std::nth_element(residuals.begin(), middle, residuals.end());
+    return *middle;
+}
+
+struct NormalEquations {
+    Matrix7 matrix = Matrix7::Zero();      ///< mean, Tukey weights included
+    Matrix7 unweighted = Matrix7::Zero();  ///< mean of row^T row with the residual's own term left out
+    Vector7 gradient = Vector7::Zero();
+    Vector3 centre = Vector3::Zero();
+    double weight = 0.0;  ///< of the points that take part
+    double square = 0.0;  ///< weighted sum of squared residuals
+    double effective = 0.0;
+};
+
+NormalEquations normal_equations(std::span<const WeightedPoint> points, const std::vector<Foot>& feet, double cutoff,
+                                 double radius) {
+    NormalEquations equations;
+    for (std::size_t i = 0; i < feet.size(); ++i)
+        if (feet[i].used) {
+            equations.centre += points[i].weight * feet[i].moved;
+            equations.weight += points[i].weight;
+        }
+    if (!(equations.weight > 0.0)) return equations;
+    equations.centre /= equations.weight;
+    double weights = 0.0, weight_squares = 0.0;
+    for (std::size_t i = 0; i < feet.size(); ++i) {
+        const Foot& foot = feet[i];
+        if (!foot.used) continue;
+        const double ratio = foot.residual / cutoff;
+        const double inside = std::max(0.0, 1.0 - ratio * ratio);
+        const double weight = points[i].weight * inside * inside;
+        const Vector3 arm = (foot.moved - equations.centre) / radius;
+        Vector7 row;
+        row << arm.cross(foot.normal), foot.normal, foot.normal.dot(arm);
+        equations.unweighted += points[i].weight * row * row.transpose();
+        row[6] -= foot.residual / radius;
+        equations.matrix += weight * row * row.transpose();
+        equations.gradient += weight * foot.residual * row;
+        equations.square += points[i].weight * foot.residual * foot.residual;
+        weights += weight;
+        weight_squares += weight * weight;
+    }
+    equations.unweighted /= equations.weight;
+    if (weights > 0.0) {
+        equations.matrix /= weights;
+        equations.gradient /= weights;
+        equations.effective = weights * weights / weight_squares;
+    }
+    return equations;
+}
+
+/// Least-squares step in mm; motions that are not determined stay 0.
+Vector7 solve(const NormalEquations& equations, bool free_scale) {
+    const int n = free_scale ? 7 : 6;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(equations.matrix.topLeftCorner(n, n));
+    const Eigen::VectorXd& value = solver.eigenvalues();
+    const Eigen::VectorXd along = solver.eigenvectors().transpose() * equations.gradient.head(n);
+    Vector7 step = Vector7::Zero();
+    for (int k = 0; k < n; ++k)
+        if (value[k] > undetermined_motion * value[n - 1])
+            step.head(n) -= along[k] / value[k] * solver.eigenvectors().col(k);
+    return step;
+}
+
+SimilarityTransform moved_by(const SimilarityTransform& pose, const Vector7& step, const Vector3& centre,
+                             double radius) {
+    const Vector3 turn = step.head<3>() / radius;
+    const double angle = turn.norm();
+    const Matrix3 rotation =
+        angle > 0.0 ? Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() : Matrix3::Identity();
+    const double factor = std::exp(step[6] / radius);
+    SimilarityTransform result = pose;
+    result.scale *= factor;
+    result.rotation = Eigen::Quaterniond(Matrix3(rotation * pose.rotation)).normalized().toRotationMatrix();
+    result.translation = centre + step.segment<3>(3) + factor * (rotation * (pose.translation - centre));
+    return result;
+}
+
+double scale_deviation(const NormalEquations& equations) {
+    const Eigen::SelfAdjointEigenSolver<Matrix7> solver(equations.unweighted);
+    const Vector7& value = solver.eigenvalues();
+    double inverse = 0.0;
+    for (int k = 0; k < 7; ++k) {
+        const double part = solver.eigenvectors()(6, k) * solver.eigenvectors()(6, k);
+        if (value[k] <= undetermined_motion * value[6]) {
+            if (part > undetermined_motion) return std::numeric_limits<double>::infinity();
+            continue;
+        }
+        inverse += part / value[k];
+    }
+    return std::sqrt(equations.square / equations.weight * inverse / std::max(equations.effective, 1.0));
+}
+
+}  // namespace
+
+Refinement refine(const Ground& original, std::span<const WeightedPoint> points, const SimilarityTransform& start,
+                  const RefineOptions& options, const Progress& progress) {
+    Refinement result{.original_suspect = start};
+    if (points.empty()) return result;
+    const double size = size_of(points);
+    double total = 0.0;
+    for (const WeightedPoint& p : points) total += p.weight;
+
+    SimilarityTransform& pose = result.original_suspect;
+    pose.scale = options.scale.clamp(pose.scale);
+    bool free_scale = options.scale.kind != ScaleChoice::Kind::fixed;
+    double relative_cutoff = options.start_cutoff;
+    double last_step = std::numeric_limits<double>::infinity();
+    for (result.steps = 0; result.steps < options.maximum_steps; ++result.steps) {
+        progress.check();
+        const double length = size * pose.scale;
+        result.radius = 0.5 * length;
+        result.cutoff = relative_cutoff * length;
+        std::vector<Foot> feet = find_feet(original, points, pose, result.cutoff);
+        const double wanted = tukey * median_to_deviation * median_residual(feet) / length;
+        const bool shrink = relative_cutoff > close_cutoff && last_step < relative_cutoff;
+        const double forced = shrink ? std::max(forced_shrink * relative_cutoff, close_cutoff) : relative_cutoff;
+        const double next_cutoff = std::max(std::min(wanted, forced), least_cutoff);
+
+        const NormalEquations equations = normal_equations(points, feet, result.cutoff, result.radius);
+        result.share = equations.weight / total;
+        if (!(equations.weight > 0.0)) return result;
+        result.rms = std::sqrt(equations.square / equations.weight);
+        result.normal_matrix = equations.unweighted;
+        result.scale_deviation = scale_deviation(equations) / result.radius;
+        const bool tight = relative_cutoff <= close_cutoff && next_cutoff >= forced_shrink * relative_cutoff;
+        relative_cutoff = next_cutoff;
+
+        Vector7 step = solve(equations, free_scale);
+        const double excess = std::max({step.head<3>().norm() / (longest_turn * result.radius),
+                                        step.segment<3>(3).norm() / (longest_shift * length),
+                                        std::abs(step[6]) / (longest_scaling * result.radius), 1.0});
+        step /= excess;
+        pose = moved_by(pose, step, equations.centre, result.radius);
+        if (const double allowed = options.scale.clamp(pose.scale); allowed != pose.scale) {
+            // At the end of the allowed range the scale stays there and the other motions go on.
+            pose.translation += (pose.scale - allowed) *
+                                (pose.orthogonal() * pose.inverse().apply(equations.centre + step.segment<3>(3)));
+            pose.scale = allowed;
+            free_scale = false;
+        }
+        const double length_of_step = step.norm() / result.radius;
+        if (tight && (length_of_step < rounding_step || (length_of_step < stagnation && length_of_step >= last_step))) {
+            result.converged = true;
+            break;
+        }
+        last_step = length_of_step;
+    }
+    return result;
+}
+
+}  // namespace umbilic

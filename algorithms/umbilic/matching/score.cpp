@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <umbilic/matching/score.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <oneapi/tbb/parallel_for.h>
+
+namespace umbilic {
+
+namespace {
+
+constexpr double nowhere = std::numeric_limits<double>::infinity();
+
+double sample_distance(const Ground& ground, const AreaSample& sample, const SimilarityTransform& ground_suspect,
+                       double limit, bool oriented) {
+    const auto foot = ground.model.tree.closest(ground_suspect.apply(sample.curvature.point), limit);
+    if (!foot || foot->distance > limit) return nowhere;
+    if (foot->kind != FootKind::interior) return foot->distance;
+    const auto normal = ground.normals.at(foot->at);
+    if (!normal) return foot->distance;
+    const double cosine = normal->dot(ground_suspect.apply_direction(sample.curvature.normal));
+    return (oriented ? cosine : std::abs(cosine)) >= agreeing_cosine ? foot->distance : nowhere;
+}
+
+double van_der_corput(unsigned index) {
+    double value = 0.0, digit = 0.5;
+    for (; index > 0; index >>= 1, digit *= 0.5)
+        if (index & 1u) value += digit;
+    return value;
+}
+
+}  // namespace
+
+std::vector<double> sample_distances(const Ground& ground, const PreparedModel& suspect,
+                                     const SimilarityTransform& ground_suspect, double limit) {
+    const auto& samples = suspect.features.samples;
+    const bool oriented = ground.model.model.oriented() && suspect.model.oriented();
+    std::vector<double> distances(samples.size());
+    tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t i) {
+        distances[i] = sample_distance(ground, samples[i], ground_suspect, limit, oriented);
+    });
+    return distances;
+}
+
+Coverage coverage(const std::vector<AreaSample>& samples, const std::vector<double>& distances, double tolerance) {
+    Coverage result;
+    double total = 0.0, square = 0.0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const double weight = samples[i].weight, d = distances[i];
+        total += weight;
+        if (d > tolerance) continue;
+        const double ratio = d / tolerance;
+        result.share += weight;
+        result.soft += weight * (1.0 - ratio * ratio);
+        square += weight * d * d;
+        result.max = std::max(result.max, d);
+    }
+    if (result.share > 0.0) result.rms = std::sqrt(square / result.share);
+    if (total > 0.0) {
+        result.share /= total;
+        result.soft /= total;
+    }
+    return result;
+}
+
+std::vector<int> spread_samples(const std::vector<AreaSample>& samples, int count) {
+    std::vector<double> until;
+    double total = 0.0;
+    for (const AreaSample& sample : samples) until.push_back(total += sample.weight);
+    std::vector<int> which;
+    if (!(total > 0.0)) return which;
+    for (int k = 0; k < count; ++k) {
+        const double at = total * van_der_corput(k + 1);
+        const auto found = std::upper_bound(until.begin(), until.end() - 1, at);
+        which.push_back(static_cast<int>(found - until.begin()));
+    }
+    return which;
+}
+
+double quick_score(const Ground& ground, const PreparedModel& suspect, const std::vector<int>& which,
+                   const SimilarityTransform& ground_suspect, double tolerance, double at_least) {
+    const bool oriented = ground.model.model.oriented() && suspect.model.oriented();
+    double sum = 0.0;
+    const double needed = at_least * which.size();
+    for (std::size_t k = 0; k < which.size(); ++k) {
+        if (sum + static_cast<double>(which.size() - k) < needed) break;
+        const double d =
+            sample_distance(ground, suspect.features.samples[which[k]], ground_suspect, tolerance, oriented);
+        if (d <= tolerance) sum += 1.0 - (d / tolerance) * (d / tolerance);
+    }
+    return which.empty() ? 0.0 : sum / which.size();
+}
+
+}  // namespace umbilic

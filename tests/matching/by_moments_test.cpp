@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <umbilic/matching/by_moments.h>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <support/surfaces.h>
+
+namespace umbilic {
+namespace {
+
+/// Solid box with the given sides, moved.
+Solid box(const Vector3& sides, const SimilarityTransform& pose) {
+    const double volume = sides.prod();
+    const Vector3 square = sides.cwiseProduct(sides) / 12.0;
+    const Matrix3 inertia =
+        volume * Vector3(square.y() + square.z(), square.x() + square.z(), square.x() + square.y()).asDiagonal();
+    Solid solid;
+    solid.volume = volume * std::pow(pose.scale, 3);
+    solid.centroid = pose.apply(0.5 * sides);
+    solid.inertia = std::pow(pose.scale, 5) * pose.orthogonal() * inertia * pose.orthogonal().transpose();
+    return solid;
+}
+
+/// Solid tetrahedron: covariance of a simplex is the scatter of its corners over 20.
+Solid tetrahedron(const std::array<Vector3, 4>& corners) {
+    Solid solid;
+    Matrix3 edges;
+    edges << corners[1] - corners[0], corners[2] - corners[0], corners[3] - corners[0];
+    solid.volume = std::abs(edges.determinant()) / 6.0;
+    for (const Vector3& c : corners) solid.centroid += c / 4.0;
+    Matrix3 covariance = Matrix3::Zero();
+    for (const Vector3& c : corners) covariance += (c - solid.centroid) * (c - solid.centroid).transpose() / 20.0;
+    solid.inertia = solid.volume * (covariance.trace() * Matrix3::Identity() - covariance);
+    return solid;
+}
+
+PreparedModel prepared(const Model& model) {
+    return {model, {}, ClosestPointTree(support::table_3_1_patch())};
+}
+
+Model of_solids(std::vector<Solid> solids) {
+    Model model;
+    model.solids = std::move(solids);
+    for (const Solid& solid : model.solids) model.volume += solid.volume;
+    return model;
+}
+
+double difference(const SimilarityTransform& a, const SimilarityTransform& b) {
+    return (a.scale * a.orthogonal() - b.scale * b.orthogonal()).norm() / b.scale +
+           (a.translation - b.translation).norm() / (1.0 + b.translation.norm());
+}
+
+double least_difference(const Proposals& proposals, const SimilarityTransform& truth) {
+    double least = INFINITY;
+    for (const PoseHypothesis& hypothesis : proposals.poses)
+        least = std::min(least, difference(hypothesis.original_suspect, truth));
+    return least;
+}
+
+const std::array<Vector3, 4> corners = {Vector3(0, 0, 0), Vector3(3, 0.2, 0.1), Vector3(0.3, 2, 0.5),
+                                        Vector3(0.1, 0.7, 1.1)};
+
+Model moved_tetrahedron(const SimilarityTransform& original_suspect) {
+    std::array<Vector3, 4> moved;
+    for (int i = 0; i < 4; ++i) moved[i] = original_suspect.inverse().apply(corners[i]);
+    return of_solids({tetrahedron(moved)});
+}
+
+TEST(Moments, ScaleIsTheCubeRootOfTheVolumeRatio) {
+    const Model original = of_solids({tetrahedron(corners)});
+    for (unsigned seed = 0; seed < 20; ++seed)
+        for (const bool mirror : {false, true}) {
+            const auto truth = support::random_similarity(seed, 1.6695 * (1 + seed), mirror);
+            const Model suspect = moved_tetrahedron(truth);
+            const Proposals proposals =
+                poses_by_moments(prepared(original), prepared(suspect), {}, MirrorChoice::automatic);
+            ASSERT_EQ(proposals.poses.size(), 8u);
+            EXPECT_LT(least_difference(proposals, truth), 1e-10);
+            for (const PoseHypothesis& hypothesis : proposals.poses)
+                EXPECT_NEAR(hypothesis.original_suspect.scale / truth.scale, 1.0, 1e-12);
+        }
+}
+
+TEST(Moments, FourProperOrientationsWithoutMirrorImages) {
+    const Model original = of_solids({tetrahedron(corners)});
+    const auto truth = support::random_similarity(3, 0.7, false);
+    const Model suspect = moved_tetrahedron(truth);
+    const Proposals proposals = poses_by_moments(prepared(original), prepared(suspect), {}, MirrorChoice::never);
+    ASSERT_EQ(proposals.poses.size(), 4u);
+    for (const PoseHypothesis& hypothesis : proposals.poses) {
+        EXPECT_FALSE(hypothesis.original_suspect.mirrored);
+        EXPECT_NEAR(hypothesis.original_suspect.rotation.determinant(), 1.0, 1e-12);
+    }
+    EXPECT_LT(least_difference(proposals, truth), 1e-10);
+}
+
+TEST(Moments, SolidsOfAnAssemblyCountTogether) {
+    const auto place = support::random_similarity(5, 1.0, false);
+    const SimilarityTransform identity;
+    SimilarityTransform upper;
+    upper.translation = Vector3(0, 0, 1);
+    // Two halves of a box, one on the other, are the box.
+    const Model halves = of_solids({box({3, 2, 1}, identity), box({3, 2, 1}, upper)});
+    const Model whole = of_solids({box({3, 2, 2}, place.inverse())});
+    const ShapeMoments a = volume_moments(halves), b = volume_moments(of_solids({box({3, 2, 2}, identity)}));
+    EXPECT_NEAR(a.measure, b.measure, 1e-12);
+    EXPECT_LT((a.centroid - b.centroid).norm(), 1e-12);
+    EXPECT_LT((a.covariance - b.covariance).norm(), 1e-12);
+    EXPECT_EQ(moment_symmetry(a), MomentSymmetry::two_smaller_equal);
+    EXPECT_NEAR(poses_by_moments(prepared(halves), prepared(whole), {}, MirrorChoice::automatic)
+                    .poses.front()
+                    .original_suspect.scale,
+                1.0, 1e-12);
+}
+
+TEST(Moments, EqualMomentsAreSampledAndSaidSo) {
+    const auto place = support::random_similarity(8, 2.0, false);
+    const SimilarityTransform identity;
+    const Model cube = of_solids({box({2, 2, 2}, identity)});
+    const Model moved = of_solids({box({2, 2, 2}, place.inverse())});
+    EXPECT_EQ(moment_symmetry(volume_moments(cube)), MomentSymmetry::all_equal);
+    const Proposals sampled = poses_by_moments(prepared(cube), prepared(moved), {}, MirrorChoice::never);
+    EXPECT_NE(sampled.why.find("all rotations were sampled"), std::string::npos);
+    double nearest = INFINITY;
+    for (const PoseHypothesis& hypothesis : sampled.poses)
+        nearest = std::min(nearest, rotation_angle_between(hypothesis.original_suspect.rotation, place.rotation));
+    EXPECT_LT(nearest, 0.35);
+
+    const Model plate = of_solids({box({4, 4, 1}, identity)});
+    EXPECT_EQ(moment_symmetry(volume_moments(plate)), MomentSymmetry::two_greater_equal);
+    const Model moved_plate = of_solids({box({4, 4, 1}, place.inverse())});
+    const Proposals turned = poses_by_moments(prepared(plate), prepared(moved_plate), {}, MirrorChoice::never);
+    EXPECT_NE(turned.why.find("two principal moments are equal"), std::string::npos);
+    for (const double angle : {0.0, 0.3, 1.0, 2.0}) {
+        const Matrix3 wanted = Eigen::AngleAxisd(angle, Vector3::UnitZ()) * place.rotation;
+        double gap = INFINITY;
+        for (const PoseHypothesis& hypothesis : turned.poses)
+            gap = std::min(gap, rotation_angle_between(hypothesis.original_suspect.rotation, wanted));
+        EXPECT_LT(gap, 0.14) << "angle " << angle;
+    }
+}
+
+TEST(Moments, DifferentWholesAndForbiddenScalesProposeNothing) {
+    const SimilarityTransform identity;
+    const Model a = of_solids({box({3, 2, 1}, identity)}), b = of_solids({box({3, 3, 1}, identity)});
+    EXPECT_TRUE(poses_by_moments(prepared(a), prepared(b), {}, MirrorChoice::automatic).poses.empty());
+    SimilarityTransform half;
+    half.scale = 0.5;
+    const Model small = of_solids({box({3, 2, 1}, half)});
+    EXPECT_EQ(poses_by_moments(prepared(a), prepared(small), {}, MirrorChoice::never).poses.size(), 4u);
+    const ScaleChoice fixed{ScaleChoice::Kind::fixed};
+    const Proposals none = poses_by_moments(prepared(a), prepared(small), fixed, MirrorChoice::automatic);
+    EXPECT_TRUE(none.poses.empty());
+    EXPECT_FALSE(none.why.empty());
+}
+
+}  // namespace
+}  // namespace umbilic
