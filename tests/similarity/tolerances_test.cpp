@@ -11,7 +11,7 @@ namespace {
 
 TEST(Tolerances, LengthsGrowAndCurvaturesShrinkWithTheModel) {
     const auto small = derive_tolerances(10.0, 0.0), large = derive_tolerances(1000.0, 0.0);
-    for (const char* length : {"distance", "umbilic_distance", "exact_distance"})
+    for (const char* length : {"distance", "umbilic-distance", "exact-distance"})
         EXPECT_DOUBLE_EQ(find_tolerance(large, length).value, 100.0 * find_tolerance(small, length).value) << length;
     EXPECT_DOUBLE_EQ(find_tolerance(large, "kappa").value, find_tolerance(small, "kappa").value / 100.0);
     for (const char* pure : {"direction", "cell"})
@@ -52,7 +52,7 @@ TEST(Tolerances, ChoicesOfTheUserKeepValueAndOrigin) {
 TEST(Tolerances, ExactnessNeverExceedsTheDistance) {
     ToleranceChoices choices;
     choices.distance = 1e-9;
-    EXPECT_LE(find_tolerance(derive_tolerances(100.0, 0.5, choices), "exact_distance").value, 1e-9);
+    EXPECT_LE(find_tolerance(derive_tolerances(100.0, 0.5, choices), "exact-distance").value, 1e-9);
 }
 
 TEST(Tolerances, NonsenseIsRefused) {

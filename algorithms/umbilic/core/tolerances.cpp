@@ -36,11 +36,11 @@ std::vector<Tolerance> derive_tolerances(double size, double accuracy, const Tol
              "intermediate test: difference of principal curvatures at node and foot point <= delta_1"),
         make("direction", choices.direction, tolerance::direction, ToleranceOrigin::fixed_default, "rad",
              "intermediate test: angle between the principal directions at node and foot point <= delta_2"),
-        make("umbilic_distance", choices.umbilic_distance, tolerance::relative_umbilic_distance * size,
+        make("umbilic-distance", choices.umbilic_distance, tolerance::relative_umbilic_distance * size,
              ToleranceOrigin::derived, "mm", "strong test: distance of two umbilics of the same type <= delta_u"),
         make("cell", choices.cell, tolerance::cell, ToleranceOrigin::fixed_default, "1",
              "local similarity: side of a cell, relative to the face's parameter domain"),
-        make("exact_distance", std::nullopt, exact, ToleranceOrigin::derived, "mm",
+        make("exact-distance", std::nullopt, exact, ToleranceOrigin::derived, "mm",
              "a copy is called exact: distance of every node <= this"),
     };
     if (find_tolerance(result, "cell").value > 1.0)

@@ -51,7 +51,7 @@ inline constexpr double relative_exactness = 1e-5;
 
 }  // namespace tolerance
 
-/// The tolerances of one comparison, by name: distance, kappa, direction, umbilic_distance, cell, exact_distance. What
+/// The tolerances of one comparison, by name: distance, kappa, direction, umbilic-distance, cell, exact-distance. What
 /// the user chose stays as it is. `size` and `accuracy` (how far the files themselves may be from the shape they mean)
 /// in mm of the original. Throws InvalidInput if size is not positive, or a choice is not finite and positive, or cell
 /// is above 1.

@@ -95,12 +95,12 @@ Answer no_pose(const Alignment& alignment) {
                                         alignment.why + ")"};
 }
 
-std::string caveat(AlignmentStatus status) {
-    switch (status) {
+std::string caveat(const Alignment& alignment) {
+    switch (alignment.status) {
         case AlignmentStatus::ambiguous:
             return "; it fits in several positions";
         case AlignmentStatus::compatible:
-            return "; but unrelated shapes of this kind would fit as well: too little evidence";
+            return "; but this is too little evidence (" + alignment.why + ")";
         default:
             return "";
     }
@@ -115,13 +115,13 @@ Answer answer(const Model& original, const Model& suspect, const Alignment& alig
     const DirectedComparison& on_original = assessment.suspect_on_original;
     const DirectedComparison& on_suspect = assessment.original_on_suspect;
     const double tolerance = find_tolerance(assessment.tolerances, "distance").value;
-    const double exact_distance = find_tolerance(assessment.tolerances, "exact_distance").value;
-    const bool suspect_whole = lies_wholly(on_original, tolerance);
-    const bool original_whole = lies_wholly(on_suspect, tolerance);
+    const double exact_distance = find_tolerance(assessment.tolerances, "exact-distance").value;
+    const bool suspect_whole = on_original.overlap >= 1.0;
+    const bool original_whole = on_suspect.overlap >= 1.0;
     const std::string suspect_share = in_percent(on_original.coverage);
     const std::string original_share = in_percent(on_suspect.coverage);
 
-    if (!suspect_whole && !original_whole && !overlap_agrees(assessment))
+    if (!suspect_whole && !original_whole && !part_coincides(assessment))
         return {AnswerClass::different, "different: in the best position found " + suspect_share +
                                             " of the suspect's area comes within " + in_mm(tolerance) +
                                             " of the original, no more than unrelated shapes may"};
@@ -165,7 +165,7 @@ Answer answer(const Model& original, const Model& suspect, const Alignment& alig
                       " of the original's within that of the suspect; the rest of the suspect deviates by up to " +
                       in_mm(largest_distance(on_original));
     }
-    result.text += caveat(alignment.status);
+    result.text += caveat(alignment);
     return result;
 }
 

@@ -98,7 +98,7 @@ Assessment assess(const PreparedModel& original, const PreparedModel& suspect, c
 
     progress.report(0.95, "umbilics");
     result.strong = strong_test(placed_original, placed_suspect, alignment.scope, distance,
-                                find_tolerance(result.tolerances, "umbilic_distance").value);
+                                find_tolerance(result.tolerances, "umbilic-distance").value);
 
     result.cell = find_tolerance(result.tolerances, "cell").value;
     const auto local = [&](Quantity quantity, double tolerance) {

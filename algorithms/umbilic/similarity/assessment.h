@@ -42,6 +42,7 @@ struct DirectedComparison {
     /// tolerance, see thresholds.h) where it is partial.
     Statistics distance, kappa_max, kappa_min, direction;
     double coverage = 0.0;  ///< share of area whose nodes are covered
+    double overlap = 0.0;   ///< share of area whose nodes lie in the overlap; 1 only if all do
 };
 
 /// Two umbilics of the same type that come to lie on each other.

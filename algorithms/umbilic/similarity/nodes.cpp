@@ -97,7 +97,8 @@ DirectedComparison compare_nodes(const PlacedModel& model, const PlacedModel& ot
                                  const NodeTolerances& tolerances) {
     DirectedComparison result;
     const double area_scale = model.original_model.scale * model.original_model.scale;
-    double area = 0.0, covered = 0.0;
+    const double overlap_limit = spread_factor * tolerances.distance;
+    double area = 0.0, covered = 0.0, overlap = 0.0;
     for (std::size_t i = 0; i < feet.nodes.size(); ++i) {
         const AreaSample& sample = model.prepared.features.samples[i];
         const ClosestPoint& foot = feet.feet[i];
@@ -118,11 +119,13 @@ DirectedComparison compare_nodes(const PlacedModel& model, const PlacedModel& ot
         }
         area += comparison.weight;
         if (comparison.covered) covered += comparison.weight;
+        if (comparison.distance <= overlap_limit) overlap += comparison.weight;
         result.nodes.push_back(std::move(comparison));
     }
     result.coverage = area > 0.0 ? covered / area : 0.0;
-    const double limit = tolerances.scope == MatchScope::partial ? spread_factor * tolerances.distance
-                                                                 : std::numeric_limits<double>::infinity();
+    result.overlap = area > 0.0 ? overlap / area : 0.0;
+    const double limit =
+        tolerances.scope == MatchScope::partial ? overlap_limit : std::numeric_limits<double>::infinity();
     result.distance = statistics(result.nodes, Quantity::distance, limit);
     result.kappa_max = statistics(result.nodes, Quantity::kappa_max, limit);
     result.kappa_min = statistics(result.nodes, Quantity::kappa_min, limit);

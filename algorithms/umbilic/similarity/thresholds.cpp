@@ -2,6 +2,7 @@
 #include <umbilic/similarity/thresholds.h>
 
 #include <algorithm>
+#include <utility>
 
 #include <umbilic/similarity/statistics.h>
 
@@ -17,16 +18,11 @@ bool curvatures_agree(const DirectedComparison& direction, const Assessment& ass
             within_thresholds(direction.direction, find_tolerance(assessment.tolerances, "direction").value));
 }
 
-bool partial_overlap_agrees(const DirectedComparison& direction, const Assessment& assessment) {
-    const double distance = find_tolerance(assessment.tolerances, "distance").value;
-    return direction.coverage >= least_overlap && within_thresholds(direction.distance, distance) &&
-           direction.distance.mean <= partial_mean * distance && curvatures_agree(direction, assessment);
-}
-
 const DirectedComparison& better_covered(const Assessment& assessment) {
     const DirectedComparison& suspect = assessment.suspect_on_original;
     const DirectedComparison& original = assessment.original_on_suspect;
-    return original.coverage > suspect.coverage ? original : suspect;
+    return std::pair(original.overlap, original.coverage) > std::pair(suspect.overlap, suspect.coverage) ? original
+                                                                                                         : suspect;
 }
 
 }  // namespace
@@ -45,12 +41,6 @@ std::vector<const DirectedComparison*> deciding_directions(const Assessment& ass
     return {&assessment.suspect_on_original, &assessment.original_on_suspect};
 }
 
-bool lies_wholly(const DirectedComparison& direction, double distance) {
-    return direction.coverage >= whole_share && std::ranges::all_of(direction.nodes, [&](const NodeComparison& node) {
-               return node.distance <= spread_factor * distance;
-           });
-}
-
 bool comparable(const DirectedComparison& direction) {
     return direction.kappa_max.count > 0 && direction.kappa_max.count >= comparable_share * direction.distance.count;
 }
@@ -58,8 +48,7 @@ bool comparable(const DirectedComparison& direction) {
 bool passes_weak(const Assessment& assessment) {
     const double distance = find_tolerance(assessment.tolerances, "distance").value;
     return std::ranges::all_of(deciding_directions(assessment), [&](const DirectedComparison* direction) {
-        if (assessment.scope == MatchScope::partial && direction->coverage < whole_share)
-            return partial_overlap_agrees(*direction, assessment);
+        if (assessment.scope == MatchScope::partial && direction->overlap < whole_share) return false;
         return within_thresholds(direction->distance, distance);
     });
 }
@@ -70,14 +59,16 @@ bool passes_intermediate(const Assessment& assessment) {
     });
 }
 
-bool overlap_agrees(const Assessment& assessment) {
-    const double limit = spread_factor * find_tolerance(assessment.tolerances, "distance").value;
-    DirectedComparison overlap = better_covered(assessment);
-    overlap.distance = statistics(overlap.nodes, Quantity::distance, limit);
-    overlap.kappa_max = statistics(overlap.nodes, Quantity::kappa_max, limit);
-    overlap.kappa_min = statistics(overlap.nodes, Quantity::kappa_min, limit);
-    overlap.direction = statistics(overlap.nodes, Quantity::direction, limit);
-    return partial_overlap_agrees(overlap, assessment);
+bool part_coincides(const Assessment& assessment) {
+    const double distance = find_tolerance(assessment.tolerances, "distance").value;
+    const double limit = spread_factor * distance;
+    DirectedComparison part = better_covered(assessment);
+    part.distance = statistics(part.nodes, Quantity::distance, limit);
+    part.kappa_max = statistics(part.nodes, Quantity::kappa_max, limit);
+    part.kappa_min = statistics(part.nodes, Quantity::kappa_min, limit);
+    part.direction = statistics(part.nodes, Quantity::direction, limit);
+    return part.coverage >= least_part && within_thresholds(part.distance, distance) &&
+           part.distance.mean <= partial_mean * distance && curvatures_agree(part, assessment);
 }
 
 }  // namespace umbilic

@@ -104,22 +104,15 @@ Level strong_or_intermediate(Decision& decision, const StrongTest& strong) {
                                                                                                : Level::intermediate;
 }
 
-/// Under partial scope: is the overlap large enough, and, if it is not a whole model, does it agree so well that
-/// surfaces that merely cross or touch are excluded?
-bool ask_overlap(Decision& decision, const Assessment& assessment) {
+/// Under partial scope the tests are made on the model of which more lies on the other one: does it as a whole?
+bool ask_whole(Decision& decision, const Assessment& assessment) {
+    if (assessment.scope == MatchScope::global) return true;
     const DirectedComparison& direction = *deciding_directions(assessment).front();
-    const bool of_suspect = &direction == &assessment.suspect_on_original;
-    if (!ask(decision,
-             "Do the models share at least " + in_percent(least_overlap) + " of either (" +
-                 in_percent(direction.coverage) + " of the " + (of_suspect ? "suspect" : "original") + ")?",
-             direction.coverage >= least_overlap))
-        return false;
-    if (ask(decision,
-            std::string("Does the whole ") + (of_suspect ? "suspect" : "original") + " lie on the other model?",
-            direction.coverage >= whole_share))
-        return true;
-    return ask(decision, "Do distances in the overlap gather at zero and curvatures agree, as only copied parts do?",
-               passes_weak(assessment));
+    const char* whose = &direction == &assessment.suspect_on_original ? "suspect" : "original";
+    return ask(decision,
+               std::string("Does the whole ") + whose + " lie on the other model (" + in_percent(direction.overlap) +
+                   " of its surface)?",
+               direction.overlap >= whole_share);
 }
 
 std::string level_in_words(Level level) {
@@ -136,24 +129,37 @@ std::string level_in_words(Level level) {
     return "";
 }
 
+/// The sentence of the matching stage, to be put into another one.
+std::string as_clause(std::string sentence) {
+    while (!sentence.empty() && sentence.back() == '.') sentence.pop_back();
+    return sentence;
+}
+
 std::string explanation(const Alignment& alignment, const Assessment& assessment, const Verdict& verdict) {
+    const std::string why = as_clause(alignment.why);
     if (alignment.status == AlignmentStatus::not_found)
-        return "No position of the suspect on the original was found, so nothing shows that it is derived: " +
-               alignment.why;
+        return "Nothing shows that the suspect is derived from the original, because no position of it fits: " + why +
+               ".";
     const std::string evidence =
         "within " + in_mm(find_tolerance(assessment.tolerances, "distance").value) + ", " +
         in_percent(assessment.suspect_on_original.coverage) + " of the suspect's surface lies on the original and " +
         in_percent(assessment.original_on_suspect.coverage) + " of the original's on the suspect";
     if (alignment.status == AlignmentStatus::compatible)
-        return "The suspect fits the original (" + evidence +
-               "), but so would unrelated shapes of this kind, so this is no evidence that it is derived: " +
-               alignment.why;
-    std::string result = verdict.derived ? "The suspect is derived from the original as far as "
-                                         : "Nothing shows that the suspect is derived from the original: ";
-    result += verdict.derived ? level_in_words(verdict.level) + " can tell: " : "the weak test is not passed; ";
-    result += evidence;
-    if (verdict.derived && !assessment.strong.why.empty()) result += "; " + assessment.strong.why;
-    if (alignment.status == AlignmentStatus::ambiguous) result += "; several positions fit (" + alignment.why + ")";
+        return "The suspect can be laid on the original (" + evidence +
+               "), but that does not show that it is derived: " + why + ".";
+    std::string result;
+    if (verdict.derived)
+        result = "The suspect is derived from the original as far as " + level_in_words(verdict.level) +
+                 " can tell: " + evidence + "; umbilical points: " + assessment.strong.why;
+    else if (part_coincides(assessment))
+        result =
+            "As a whole the suspect does not pass the weak test, but a part of it coincides with the original in "
+            "place and curvature: " +
+            evidence;
+    else
+        result =
+            "Nothing shows that the suspect is derived from the original: the weak test is not passed; " + evidence;
+    if (alignment.status == AlignmentStatus::ambiguous) result += "; several positions fit (" + why + ")";
     return result + ".";
 }
 
@@ -167,6 +173,7 @@ Decision no_pose() {
 
 Decision decide_by_maxima(const Assessment& assessment) {
     Decision decision;
+    if (!ask_whole(decision, assessment)) return decision;
     if (!passes_by_maximum(decision, distance_test, assessment)) return decision;
     decision.level = Level::weak;
     if (!ask_comparable(decision, assessment)) return decision;
@@ -182,7 +189,7 @@ Decision decide_by_maxima(const Assessment& assessment) {
 
 Decision decide_by_statistics(const Assessment& assessment) {
     Decision decision;
-    if (assessment.scope == MatchScope::partial && !ask_overlap(decision, assessment)) return decision;
+    if (!ask_whole(decision, assessment)) return decision;
     if (!passes_by_statistics(decision, distance_test, assessment)) return decision;
     decision.level = Level::weak;
     if (!ask_comparable(decision, assessment)) return decision;
