@@ -20,8 +20,10 @@ struct ClosestPoint {
     Vector3 point = Vector3::Zero();
     double distance = std::numeric_limits<double>::infinity();
     FootKind kind = FootKind::interior;
-    /// Everything farther than `distance` minus rounding was excluded by bounds; false only if a Newton step count was
-    /// exhausted.
+    /// Bounds prove that no point is closer than `distance` minus rounding. False if the search ran out of its budget
+    /// of halvings: that happens where a whole curve of points is equally close and lies across the parameter lines, as
+    /// from the axis of a surface that was not parametrised as one of revolution. The bounds of trimming loops that are
+    /// neither parameter lines nor on planes rest on sampled second derivatives with a margin of 2.
     bool certified = false;
 };
 
