@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <umbilic/matching/principal_frame_table.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <nanoflann.hpp>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+namespace umbilic {
+
+namespace {
+
+/// The point set as nanoflann asks for it.
+struct Positions {
+    const PrincipalFrameTable::Entry* entries;
+    std::size_t count;
+
+    std::size_t kdtree_get_point_count() const { return count; }
+    double kdtree_get_pt(std::size_t i, std::size_t axis) const { return entries[i].frame.point[axis]; }
+    template <class Box>
+    bool kdtree_get_bbox(Box&) const {
+        return false;
+    }
+};
+
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Positions>, Positions, 3>;
+
+/// Beyond this many sample steps of tangential offset a point lies past the border of the surface.
+constexpr double border_steps = 2.0;
+
+Cubic scaled(const Cubic& c, double factor) {
+    return {c.a * factor, c.b * factor, c.c * factor, c.d * factor};
+}
+
+}  // namespace
+
+ShapeSignature shape_signature(const SurfaceDerivatives& d, bool outward) {
+    const Curvature frame = curvature(d);
+    const MongeForm monge = monge_form(d);
+    ShapeSignature result;
+    result.magnitude = std::hypot(frame.kappa_max, frame.kappa_min);
+    result.angle = std::atan2(frame.kappa_min, frame.kappa_max);
+    if (result.magnitude > 0.0) {
+        result.anisotropy = (frame.kappa_max - frame.kappa_min) / result.magnitude;
+        const double turn = std::atan2(frame.direction_max.dot(monge.y), frame.direction_max.dot(monge.x));
+        result.cubic = scaled(monge.cubic.rotated(turn), 1.0 / (result.magnitude * result.magnitude));
+    }
+    return outward ? result : seen_from_behind(result);
+}
+
+ShapeSignature half_turned(const ShapeSignature& signature) {
+    ShapeSignature result = signature;
+    result.cubic = scaled(signature.cubic, -1.0);
+    return result;
+}
+
+ShapeSignature seen_from_behind(const ShapeSignature& signature) {
+    // kappa_max and kappa_min change sign and roles; the frame (e1, e2) becomes (e2, e1); the cubic form changes sign.
+    ShapeSignature result = signature;
+    result.angle =
+        std::atan2(-signature.magnitude * std::cos(signature.angle), -signature.magnitude * std::sin(signature.angle));
+    const Cubic& c = signature.cubic;
+    result.cubic = {-c.d, -c.c, -c.b, -c.a};
+    return result;
+}
+
+ShapeSignature mirrored(const ShapeSignature& signature) {
+    ShapeSignature result = signature;
+    result.cubic.b = -signature.cubic.b;
+    result.cubic.d = -signature.cubic.d;
+    return result;
+}
+
+struct PrincipalFrameTable::Index {
+    explicit Index(const std::vector<Entry>& entries)
+        : positions{entries.data(), entries.size()}, tree(3, positions, {10}) {}
+
+    Positions positions;
+    Tree tree;
+};
+
+PrincipalFrameTable::~PrincipalFrameTable() = default;
+PrincipalFrameTable::PrincipalFrameTable(PrincipalFrameTable&&) noexcept = default;
+
+PrincipalFrameTable::PrincipalFrameTable(const Model& model, int count, const Progress& progress) {
+    const std::vector<AreaSample> samples = area_samples(model, {.count = count}, progress.part(0.0, 0.5));
+    std::vector<int> place(1, -1);
+    for (std::size_t i = 0; i < model.faces.size(); ++i) {
+        const int number = model.faces[i].number;
+        if (number >= static_cast<int>(place.size())) place.resize(number + 1, -1);
+        place[number] = static_cast<int>(i);
+    }
+    entries_.resize(samples.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, samples.size(), 256), [&](const auto& range) {
+        progress.check();
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            const Face& face = model.faces[place[samples[i].at.face]];
+            const SurfaceDerivatives d = face.surface.derivatives(samples[i].at.u, samples[i].at.v, 3);
+            // The frame is taken anew: the sign of its directions must be the one the signature's cubic refers to.
+            const Curvature frame = curvature(d);
+            entries_[i] = {face.reversed ? flipped(frame) : frame, shape_signature(d, !face.reversed)};
+        }
+    });
+    std::stable_sort(entries_.begin(), entries_.end(),
+                     [](const Entry& a, const Entry& b) { return a.signature.angle < b.signature.angle; });
+
+    Vector3 centroid = Vector3::Zero();
+    for (const Entry& entry : entries_) centroid += entry.frame.point / static_cast<double>(entries_.size());
+    double spread = 0.0;
+    for (const Entry& entry : entries_) spread += (entry.frame.point - centroid).squaredNorm();
+    extent_ = entries_.empty() ? 0.0 : 2 * std::sqrt(spread / static_cast<double>(entries_.size()));
+    step_ = entries_.empty() ? 0.0 : std::sqrt(model.area / static_cast<double>(entries_.size()));
+    // The tree refers to the entries' storage, which stays where it is when the table is moved.
+    index_ = std::make_unique<const Index>(entries_);
+}
+
+std::pair<int, int> PrincipalFrameTable::angle_range(double low, double high) const {
+    const auto first = std::lower_bound(entries_.begin(), entries_.end(), low,
+                                        [](const Entry& e, double x) { return e.signature.angle < x; });
+    const auto last =
+        std::upper_bound(first, entries_.end(), high, [](double x, const Entry& e) { return x < e.signature.angle; });
+    return {static_cast<int>(first - entries_.begin()), static_cast<int>(last - entries_.begin())};
+}
+
+double PrincipalFrameTable::approximate_distance(const Vector3& point) const {
+    unsigned nearest = 0;
+    double squared = 0.0;
+    nanoflann::KNNResultSet<double, unsigned> result(1);
+    result.init(&nearest, &squared);
+    index_->tree.findNeighbors(result, point.data(), {});
+    const Curvature& frame = entries_[nearest].frame;
+    const Vector3 offset = point - frame.point;
+    const double height = offset.dot(frame.normal);
+    const double tangential = std::sqrt(std::max(0.0, squared - height * height));
+    return tangential <= border_steps * step_ ? std::abs(height) : std::sqrt(squared);
+}
+
+}  // namespace umbilic
