@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <umbilic/bernstein/subdivision.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <umbilic/bernstein/rounding.h>
+
+namespace umbilic {
+
+namespace {
+
+/// One row: sums without the halves, which are exact and are applied once at the end by the caller's `power`.
+inline void halve_row(int n, double* row, double* first) {
+    double power = 1.0;
+    for (int step = 0; step <= n; ++step) {
+        first[step] = row[0] * power;
+        for (int j = 0; j < n - step; ++j) row[j] += row[j + 1];
+        power *= 0.5;
+    }
+    power = 1.0;
+    for (int j = n; j >= 0; --j) {
+        row[j] *= power;
+        power *= 0.5;
+    }
+}
+
+/// Keeps [0, t] of every column of length p + 1 (rows of `length`), `from_high` keeps [t, 1] instead.
+void keep_part(int p, int length, double* c, double t, bool from_high) {
+    const double s = 1.0 - t;
+    for (int step = 1; step <= p; ++step) {
+        if (from_high)
+            for (int i = 0; i <= p - step; ++i)
+                for (int j = 0; j < length; ++j)
+                    c[i * length + j] = s * c[i * length + j] + t * c[(i + 1) * length + j];
+        else
+            for (int i = p; i >= step; --i)
+                for (int j = 0; j < length; ++j)
+                    c[i * length + j] = s * c[(i - 1) * length + j] + t * c[i * length + j];
+    }
+}
+
+/// Growth of errors at parameter t: 1 within [0, 1].
+double growth(int degree, double t) {
+    const double factor = std::abs(t) + std::abs(1.0 - t);
+    return t >= 0.0 && t <= 1.0 ? 1.0 : std::pow(factor, degree) * bound_slack;
+}
+
+template <typename Keep>
+double restrict_interval(int degree, double low, double high, const Keep& keep) {
+    // The end that is farther inside first, so that the second parameter, relative to the part kept, stays benign.
+    keep(high, false);
+    const double relative = low / high;
+    keep(relative, true);
+    return growth(degree, high) * growth(degree, relative);
+}
+
+}  // namespace
+
+void halve_u(CoefficientShape shape, double* c, double* first) {
+    const int p = shape.p, length = shape.row_length();
+    double power = 1.0;
+    for (int step = 0; step <= p; ++step) {
+        for (int j = 0; j < length; ++j) first[step * length + j] = c[j] * power;
+        const int count = (p - step) * length;
+        for (int at = 0; at < count; ++at) c[at] += c[at + length];
+        power *= 0.5;
+    }
+    power = 1.0;
+    for (int i = p; i >= 0; --i) {
+        for (int j = 0; j < length; ++j) c[i * length + j] *= power;
+        power *= 0.5;
+    }
+}
+
+void halve_v(CoefficientShape shape, double* c, double* first) {
+    const int length = shape.row_length();
+    for (int i = 0; i <= shape.p; ++i) halve_row(shape.q, c + i * length, first + i * length);
+}
+
+double restrict_u(CoefficientShape shape, double* c, double low, double high) {
+    return restrict_interval(
+        shape.p, low, high, [&](double t, bool from_high) { keep_part(shape.p, shape.row_length(), c, t, from_high); });
+}
+
+double restrict_v(CoefficientShape shape, double* c, double low, double high) {
+    return restrict_interval(shape.q, low, high, [&](double t, bool from_high) {
+        for (int i = 0; i <= shape.p; ++i) keep_part(shape.q, 1, c + i * shape.row_length(), t, from_high);
+    });
+}
+
+void bernstein_basis(int n, double t, double* values, double* derivatives) {
+    const double s = 1.0 - t;
+    std::fill(derivatives, derivatives + n + 1, 0.0);
+    values[0] = 1.0;
+    for (int degree = 1; degree <= n; ++degree) {
+        if (degree == n) {
+            for (int k = 0; k < n; ++k) {
+                derivatives[k] -= n * values[k];
+                derivatives[k + 1] += n * values[k];
+            }
+        }
+        values[degree] = t * values[degree - 1];
+        for (int k = degree - 1; k > 0; --k) values[k] = s * values[k] + t * values[k - 1];
+        values[0] *= s;
+    }
+}
+
+}  // namespace umbilic

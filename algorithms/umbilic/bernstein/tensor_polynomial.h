@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <umbilic/bernstein/interval.h>
+
+namespace umbilic {
+
+/// Bounds on the distance of every Bernstein coefficient of an array from the exact one.
+struct CoefficientBound {
+    double rounding = 0.0;  ///< the input numbers taken as exact
+    /// The input numbers taken as rounded values of others, so that the exact array is only known up to this.
+    double input = 0.0;
+};
+
+/// Bivariate polynomial sum b_ij B_i^m(u) B_j^n(v), held in the scaled Bernstein basis: scaled[i * (n + 1) + j] =
+/// binomial(m, i) binomial(n, j) b_ij. There a product is a plain convolution (thesis 3.6; Farouki and Rajan,
+/// Algorithms for polynomials in Bernstein form, 1988). One bound for all b_ij is carried along; its derivation stands
+/// in docs/numerics.md. Storage is kept when a polynomial is formed again.
+struct TensorPolynomial {
+    int u_degree = 0;
+    int v_degree = 0;
+    std::vector<double> scaled;
+    double magnitude = 0.0;  ///< at least max |b_ij| of the stored coefficients
+    CoefficientBound bound;
+
+    int row_length() const { return v_degree + 1; }
+    /// Zero polynomial of the given degrees.
+    void set_zero(int m, int n);
+    /// Sets `magnitude` from the coefficients.
+    void measure();
+    /// Interval that holds every exact Bernstein coefficient b_ij, hence every value on [0, 1]^2.
+    Interval coefficient_hull() const;
+    /// The coefficients b_ij, row-major; `result` has (u_degree + 1) * (v_degree + 1) entries. Their distance from the
+    /// exact ones is within what is returned.
+    CoefficientBound bernstein_coefficients(std::span<double> result) const;
+};
+
+/// sign * left * right, with sign +1 or -1.
+struct ProductTerm {
+    const TensorPolynomial* left = nullptr;
+    const TensorPolynomial* right = nullptr;
+    double sign = 1.0;
+};
+
+/// Sum of products that all have the same bidegree. `result` must not be one of the factors.
+void sum_of_products(std::span<const ProductTerm> terms, TensorPolynomial& result);
+
+/// The same polynomial with its degrees raised.
+void elevate(TensorPolynomial& polynomial, int u_raise, int v_raise);
+
+/// left + right, of the same bidegree.
+void add(const TensorPolynomial& left, const TensorPolynomial& right, TensorPolynomial& result);
+
+/// Partial derivatives with respect to u or v; that of degree 0 is the zero polynomial of degree 0.
+void derivative_u(const TensorPolynomial& polynomial, TensorPolynomial& result);
+void derivative_v(const TensorPolynomial& polynomial, TensorPolynomial& result);
+
+/// Side of the unit square.
+enum class Edge { u_low, u_high, v_low, v_high };
+
+/// Divides by the linear factor that vanishes on `edge` (u, 1 - u, v or 1 - v). The row or column of coefficients on
+/// that edge must be zero within its bound and is dropped; the bounds grow by the degree.
+void divide_by_edge(TensorPolynomial& polynomial, Edge edge);
+
+/// Largest |b_ij| on an edge.
+double edge_magnitude(const TensorPolynomial& polynomial, Edge edge);
+
+}  // namespace umbilic

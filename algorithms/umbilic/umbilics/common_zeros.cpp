@@ -1,0 +1,397 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <umbilic/umbilics/common_zeros.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include <Eigen/LU>
+
+#include <umbilic/bernstein/rounding.h>
+
+namespace umbilic {
+
+namespace {
+
+using Array = Eigen::Map<const Eigen::ArrayXd>;
+using Rows = Eigen::Map<const Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+
+/// Both polynomials below this multiple of the bound from the input's rounding: identically zero. A few ulps, since
+/// control points rarely come from a single rounding.
+constexpr double zero_factor = 4.0;
+/// A preconditioner is used down to this relative determinant: near |omega| = 1 it still helps greatly.
+constexpr double least_relative_determinant = 1e-9;
+/// Above this contraction a box is split rather than proved, as the radius grows with 1 / (1 - r).
+constexpr double largest_contraction = 0.9;
+/// How far outside its box a candidate is still followed, and how much more is added to the enlarged box, relative to
+/// the box.
+constexpr double reach = 0.4;
+constexpr double margin = 1e-3;
+constexpr int newton_steps = 12;
+/// A direction is not split beyond the limit for the other if its relative variation is below this share of it.
+constexpr double least_variation = 0.01;
+/// Boxes between two looks at the progress handle.
+constexpr long boxes_per_check = 4096;
+
+Interval range(const Array& values) {
+    return {values.minCoeff(), values.maxCoeff()};
+}
+
+/// Range of the differences of neighbouring columns.
+Interval column_differences(CoefficientShape shape, const double* c) {
+    Interval result{0.0, 0.0};
+    for (int i = 0; i <= shape.p; ++i) {
+        const Array left(c + i * shape.row_length(), shape.q), right(c + i * shape.row_length() + 1, shape.q);
+        const double low = (right - left).minCoeff(), high = (right - left).maxCoeff();
+        result = i == 0 ? Interval{low, high} : hull(result, {low, high});
+    }
+    return result;
+}
+
+Interval row_differences(CoefficientShape shape, const double* c) {
+    const int count = shape.p * shape.row_length();
+    const Array low(c, count), high(c + shape.row_length(), count);
+    return {(high - low).minCoeff(), (high - low).maxCoeff()};
+}
+
+bool inside_unit(const Vector2& at, double radius) {
+    return at.minCoeff() - radius >= 0.0 && at.maxCoeff() + radius <= 1.0;
+}
+
+ParameterBox placed(const ParameterBox& box, const Vector2& low, const Vector2& high) {
+    return {{box.u.low + low.x() * box.u.length(), box.u.low + high.x() * box.u.length()},
+            {box.v.low + low.y() * box.v.length(), box.v.low + high.y() * box.v.length()}};
+}
+
+void grow(CoefficientBound& bound, double factor, double arithmetic) {
+    bound.rounding = (bound.rounding * factor + arithmetic) * bound_slack;
+    bound.input = (bound.input * factor + arithmetic) * bound_slack;
+}
+
+}  // namespace
+
+void CommonZeros::clear() {
+    isolated.clear();
+    open.clear();
+    boxes = 0;
+    exhausted = false;
+}
+
+void CommonZeroSearch::set_polynomials(const TensorPolynomial& a, const TensorPolynomial& b) {
+    assert(a.u_degree == b.u_degree && a.v_degree == b.v_degree);
+    shape_ = {a.u_degree, a.v_degree};
+    const int size = shape_.size();
+    root_.resize(2 * size);
+    const TensorPolynomial* source[2] = {&a, &b};
+    CoefficientBound* bound[2] = {&root_bounds_.a, &root_bounds_.b};
+    for (int k = 0; k < 2; ++k) {
+        double* c = root_.data() + k * size;
+        *bound[k] = source[k]->bernstein_coefficients({c, static_cast<std::size_t>(size)});
+        const double largest = Array(c, size).abs().maxCoeff();
+        if (largest == 0.0) continue;
+        const double scale = std::ldexp(1.0, -std::ilogb(largest));
+        for (int at = 0; at < size; ++at) c[at] *= scale;
+        bound[k]->rounding *= scale;
+        bound[k]->input *= scale;
+    }
+    combined_.resize(2 * size);
+    enlarged_.resize(2 * size);
+    basis_.resize(2 * (shape_.p + shape_.q + 2));
+}
+
+void CommonZeroSearch::search(const ParameterBox& part, const SearchLimits& limits, const Progress& progress,
+                              CommonZeros& result) {
+    const int size = shape_.size();
+    const auto slot = [&](std::size_t k) { return slots_.data() + k * 2 * size; };
+    if (slots_.size() < root_.size()) slots_.resize(root_.size());
+    nodes_.assign(1, {part, root_bounds_});
+    std::copy(root_.begin(), root_.end(), slots_.begin());
+    if (part.u.low > 0.0 || part.u.high < 1.0 || part.v.low > 0.0 || part.v.high < 1.0) {
+        for (int k = 0; k < 2; ++k) {
+            double* c = slot(0) + k * size;
+            const double arithmetic = gamma_bound(6 * (shape_.p + shape_.q)) * Array(c, size).abs().maxCoeff();
+            restrict_u(shape_, c, part.u.low, part.u.high);
+            restrict_v(shape_, c, part.v.low, part.v.high);
+            grow(k == 0 ? nodes_[0].bounds.a : nodes_[0].bounds.b, 1.0, arithmetic);
+        }
+    }
+
+    long visited = 0;
+    while (!nodes_.empty()) {
+        if (visited == limits.boxes) {
+            result.exhausted = true;
+            for (const Node& node : nodes_) result.open.push_back({node.box, false});
+            break;
+        }
+        if (++visited % boxes_per_check == 0) progress.check();
+        const std::size_t top = nodes_.size() - 1;
+        const Outcome outcome = examine(nodes_[top], slot(top), result);
+        if (outcome == Outcome::zero) result.open.push_back({nodes_[top].box, true});
+        if (outcome != Outcome::split) {
+            nodes_.pop_back();
+            continue;
+        }
+        const ParameterBox box = nodes_[top].box;
+        bool along_u = u_variation_ >= v_variation_;
+        const bool u_long = box.u.length() > limits.u_size, v_long = box.v.length() > limits.v_size;
+        const double lesser = std::min(u_variation_, v_variation_), greater = std::max(u_variation_, v_variation_);
+        bool possible = along_u ? u_long : v_long;
+        if (!possible && lesser >= least_variation * greater) {
+            along_u = !along_u;
+            possible = along_u ? u_long : v_long;
+        }
+        if (!possible) {
+            result.open.push_back({box, false});
+            nodes_.pop_back();
+            continue;
+        }
+        if (slots_.size() < (top + 2) * 2 * size) slots_.resize((top + 2) * 2 * size);
+        Node& second = nodes_[top];
+        const int degree = along_u ? shape_.p : shape_.q;
+        grow(second.bounds.a, 1.0, gamma_bound(degree) * magnitude_[0]);
+        grow(second.bounds.b, 1.0, gamma_bound(degree) * magnitude_[1]);
+        Node first = second;
+        if (along_u)
+            first.box.u.high = second.box.u.low = box.u.middle();
+        else
+            first.box.v.high = second.box.v.low = box.v.middle();
+        for (int k = 0; k < 2; ++k)
+            (along_u ? halve_u : halve_v)(shape_, slot(top) + k * size, slot(top + 1) + k * size);
+        nodes_.push_back(first);
+    }
+    result.boxes += visited;
+}
+
+CommonZeroSearch::Outcome CommonZeroSearch::examine(const Node& node, const double* coefficients, CommonZeros& result) {
+    const int size = shape_.size();
+    const double* polynomial[2] = {coefficients, coefficients + size};
+    const CoefficientBound bound[2] = {node.bounds.a, node.bounds.b};
+    bool vanishes[2], excluded = false;
+    for (int k = 0; k < 2; ++k) {
+        const Interval values = range(Array(polynomial[k], size));
+        magnitude_[k] = values.magnitude();
+        vanishes[k] = magnitude_[k] <= zero_factor * bound[k].input;
+        excluded = excluded || (!vanishes[k] && values.mignitude() > bound[k].input);
+    }
+    if (vanishes[0] && vanishes[1]) return Outcome::zero;
+    if (excluded) return Outcome::empty;
+
+    const Array a(polynomial[0], size), b(polynomial[1], size);
+    const auto combination_excludes = [&](double x, double y) {
+        const double error = (std::abs(x) * (bound[0].input + 3 * unit_roundoff * magnitude_[0]) +
+                              std::abs(y) * (bound[1].input + 3 * unit_roundoff * magnitude_[1])) *
+                             bound_slack;
+        return (x * a + y * b).minCoeff() > error;
+    };
+    // Towards the mean of all coefficient pairs.
+    if (combination_excludes(a.mean(), b.mean())) return Outcome::empty;
+
+    const int p = shape_.p, length = shape_.row_length();
+    Matrix2 mean_derivative;
+    for (int k = 0; k < 2; ++k) {
+        const Rows rows(polynomial[k], p + 1, length);
+        mean_derivative(k, 0) = (rows.row(p) - rows.row(0)).mean();
+        mean_derivative(k, 1) = (rows.col(shape_.q) - rows.col(0)).mean();
+    }
+    const double determinant = mean_derivative.determinant();
+    const double row_product = mean_derivative.row(0).lpNorm<1>() * mean_derivative.row(1).lpNorm<1>();
+    if (std::abs(determinant) > least_relative_determinant * row_product && !vanishes[0] && !vanishes[1]) {
+        const Matrix2 preconditioner = mean_derivative.inverse();
+        const std::optional<double> r = contraction(coefficients, node.bounds, preconditioner);
+        if (!r) return Outcome::empty;
+        if (*r < largest_contraction) {
+            const Outcome outcome = isolate(node, coefficients, preconditioner, *r, result);
+            if (outcome != Outcome::split) return outcome;
+        }
+    }
+
+    u_variation_ = v_variation_ = 0.0;
+    for (int k = 0; k < 2; ++k) {
+        if (vanishes[k]) continue;
+        const Rows rows(polynomial[k], p + 1, length);
+        const double u = p == 0 ? 0.0 : (rows.bottomRows(p) - rows.topRows(p)).abs().sum() / length;
+        const double v =
+            shape_.q == 0 ? 0.0 : (rows.rightCols(shape_.q) - rows.leftCols(shape_.q)).abs().sum() / (p + 1);
+        u_variation_ = std::max(u_variation_, u / magnitude_[k]);
+        v_variation_ = std::max(v_variation_, v / magnitude_[k]);
+    }
+    return Outcome::split;
+}
+
+std::optional<double> CommonZeroSearch::contraction(const double* coefficients, const Bounds& bounds,
+                                                    const Matrix2& y) {
+    const int size = shape_.size();
+    const Array a(coefficients, size), b(coefficients + size, size);
+    const double a_size = a.abs().maxCoeff(), b_size = b.abs().maxCoeff();
+    double errors[2];
+    for (int k = 0; k < 2; ++k) {
+        Eigen::Map<Eigen::ArrayXd> g(combined_.data() + k * size, size);
+        g = y(k, 0) * a + y(k, 1) * b;
+        errors[k] = (std::abs(y(k, 0)) * (bounds.a.input + 3 * unit_roundoff * a_size) +
+                     std::abs(y(k, 1)) * (bounds.b.input + 3 * unit_roundoff * b_size)) *
+                    bound_slack;
+        if (range(Array(g.data(), size)).mignitude() > errors[k]) return std::nullopt;
+    }
+    double norm = 0.0;
+    for (int k = 0; k < 2; ++k) {
+        const double* g = combined_.data() + k * size;
+        const double difference_error =
+            (2 * errors[k] + 4 * unit_roundoff * Array(g, size).abs().maxCoeff()) * bound_slack;
+        const Interval u =
+            shape_.p == 0 ? Interval() : Interval(shape_.p) * inflated(row_differences(shape_, g), difference_error);
+        const Interval v =
+            shape_.q == 0 ? Interval() : Interval(shape_.q) * inflated(column_differences(shape_, g), difference_error);
+        const double sum =
+            k == 0 ? (Interval(1.0) - u).magnitude() + v.magnitude() : u.magnitude() + (Interval(1.0) - v).magnitude();
+        norm = std::max(norm, sum * bound_slack);
+    }
+    return norm;
+}
+
+void CommonZeroSearch::evaluate(const double* coefficients, const Vector2& at, Vector2& value, Matrix2* jacobian) {
+    const int p = shape_.p, q = shape_.q, length = shape_.row_length();
+    double* bu = basis_.data();
+    double* du = bu + p + 1;
+    double* bv = du + p + 1;
+    double* dv = bv + q + 1;
+    bernstein_basis(p, at.x(), bu, du);
+    bernstein_basis(q, at.y(), bv, dv);
+    for (int k = 0; k < 2; ++k) {
+        const double* row = coefficients + k * shape_.size();
+        double f = 0.0, f_u = 0.0, f_v = 0.0;
+        for (int i = 0; i <= p; ++i, row += length) {
+            double value_row = 0.0, derivative_row = 0.0;
+            for (int j = 0; j <= q; ++j) {
+                value_row += bv[j] * row[j];
+                derivative_row += dv[j] * row[j];
+            }
+            f += bu[i] * value_row;
+            f_u += du[i] * value_row;
+            f_v += bu[i] * derivative_row;
+        }
+        value[k] = f;
+        if (jacobian) jacobian->row(k) << f_u, f_v;
+    }
+}
+
+bool CommonZeroSearch::newton(const double* coefficients, Vector2& at) {
+    Vector2 value;
+    Matrix2 jacobian;
+    double last = std::numeric_limits<double>::infinity();
+    for (int step = 0; step < newton_steps; ++step) {
+        evaluate(coefficients, at, value, &jacobian);
+        const double determinant = jacobian.determinant();
+        if (determinant == 0.0) return false;
+        const Vector2 change = jacobian.inverse() * value;
+        at -= change;
+        if ((at.array() < -reach).any() || (at.array() > 1.0 + reach).any()) return false;
+        const double size = change.cwiseAbs().maxCoeff();
+        if (size < 4 * unit_roundoff || (step > 2 && size >= last)) return true;
+        last = size;
+    }
+    return true;
+}
+
+CommonZeroSearch::Residual CommonZeroSearch::residual(const double* coefficients, const Bounds& bounds,
+                                                      const Matrix2& y, const Vector2& at) {
+    Residual result;
+    Vector2 value;
+    evaluate(coefficients, at, value, nullptr);
+    result.value = y * value;
+    const double relative = gamma_bound(4 * (shape_.p + shape_.q) + 8);
+    const double a = relative * Array(coefficients, shape_.size()).abs().maxCoeff();
+    const double b = relative * Array(coefficients + shape_.size(), shape_.size()).abs().maxCoeff();
+    for (int k = 0; k < 2; ++k) {
+        const double ya = std::abs(y(k, 0)) * bound_slack, yb = std::abs(y(k, 1)) * bound_slack;
+        result.rounding[k] = (ya * (bounds.a.rounding + a) + yb * (bounds.b.rounding + b)) * bound_slack;
+        result.input[k] = (ya * (bounds.a.input + a) + yb * (bounds.b.input + b)) * bound_slack;
+    }
+    return result;
+}
+
+CommonZeroSearch::Outcome CommonZeroSearch::isolate(const Node& node, const double* coefficients,
+                                                    const Matrix2& preconditioner, double r, CommonZeros& result) {
+    const int size = shape_.size();
+    const Residual centre = residual(coefficients, node.bounds, preconditioner, Vector2(0.5, 0.5));
+    for (int k = 0; k < 2; ++k)
+        if (std::abs(centre.value[k]) - centre.input[k] > 0.5 * (1.0 + r) * bound_slack) return Outcome::empty;
+
+    Vector2 at = Vector2(0.5, 0.5) - centre.value;
+    at = at.cwiseMax(-reach).cwiseMin(1.0 + reach);
+    if (!newton(coefficients, at)) return Outcome::split;
+
+    // Distance of the zero from x if ||I - g'|| <= r on a convex set that holds the ball of that radius around x.
+    const auto radius = [](const Residual& at_candidate, const double* error, double norm) {
+        const double largest =
+            std::max(std::abs(at_candidate.value[0]) + error[0], std::abs(at_candidate.value[1]) + error[1]);
+        return largest / (1.0 - norm) * bound_slack;
+    };
+    IsolatedZero zero;
+    zero.sign = preconditioner.determinant() > 0.0 ? 1 : -1;
+    const Vector2 side(node.box.u.length(), node.box.v.length());
+    const Vector2 corner(node.box.u.low, node.box.v.low);
+    // Rounding of the box's ends and of the change of parameters.
+    const Vector2 placing = Vector2::Constant(16 * unit_roundoff);
+    const auto accept = [&](const Vector2& low, const Vector2& high, double exact, double rounded) {
+        const Vector2 scale = side.cwiseProduct(high - low);
+        zero.at = corner + side.cwiseProduct(low) + scale.cwiseProduct(at);
+        zero.radius = exact * scale + placing;
+        zero.input_radius = rounded * scale + placing;
+        zero.box = placed(node.box, low, high);
+        add_zero(zero, result);
+        return Outcome::isolated;
+    };
+
+    if (at.minCoeff() > 0.0 && at.maxCoeff() < 1.0) {
+        const Residual there = residual(coefficients, node.bounds, preconditioner, at);
+        const double rounded = radius(there, there.input, r);
+        if (inside_unit(at, rounded))
+            return accept(Vector2::Zero(), Vector2::Ones(), radius(there, there.rounding, r), rounded);
+        if (rounded > reach) return Outcome::split;
+    }
+
+    // On the edge or outside: prove on a box that holds both this one and the candidate.
+    Vector2 low = Vector2::Zero(), high = Vector2::Ones();
+    for (int k = 0; k < 2; ++k) {
+        if (at[k] < margin) low[k] = std::min(at[k], 0.0) - margin;
+        if (at[k] > 1.0 - margin) high[k] = std::max(at[k], 1.0) + margin;
+    }
+    std::copy(coefficients, coefficients + 2 * size, enlarged_.data());
+    Bounds bounds = node.bounds;
+    for (int k = 0; k < 2; ++k) {
+        double* c = enlarged_.data() + k * size;
+        const double largest = Array(c, size).abs().maxCoeff();
+        const double factor = restrict_u(shape_, c, low.x(), high.x()) * restrict_v(shape_, c, low.y(), high.y());
+        grow(k == 0 ? bounds.a : bounds.b, factor, gamma_bound(6 * (shape_.p + shape_.q)) * factor * largest);
+    }
+    const Vector2 scale = high - low;
+    const Matrix2 scaled = scale.cwiseInverse().asDiagonal() * preconditioner;
+    const std::optional<double> norm = contraction(enlarged_.data(), bounds, scaled);
+    if (!norm) return Outcome::empty;
+    if (*norm >= largest_contraction) return Outcome::split;
+    at = (at - low).cwiseQuotient(scale);
+    const Residual there = residual(enlarged_.data(), bounds, scaled, at);
+    const double rounded = radius(there, there.input, *norm);
+    if (!inside_unit(at, rounded)) return Outcome::split;
+    const Vector2 outside_low = -low.cwiseQuotient(scale), outside_high = (Vector2::Ones() - low).cwiseQuotient(scale);
+    const double reaching = rounded + 16 * unit_roundoff;
+    if ((at.array() + reaching < outside_low.array()).any() || (at.array() - reaching > outside_high.array()).any())
+        return Outcome::empty;
+    return accept(low, high, radius(there, there.rounding, *norm), rounded);
+}
+
+void CommonZeroSearch::add_zero(const IsolatedZero& zero, CommonZeros& result) {
+    const auto holds = [](const ParameterBox& box, const IsolatedZero& z) {
+        const Vector2 low = z.at - z.radius, high = z.at + z.radius;
+        return box.contains(low.x(), low.y()) && box.contains(high.x(), high.y());
+    };
+    for (IsolatedZero& other : result.isolated)
+        if (holds(other.box, zero) && holds(zero.box, other)) {
+            // Each box holds exactly one zero, and both balls: the same one.
+            if (zero.radius.maxCoeff() < other.radius.maxCoeff()) other = zero;
+            return;
+        }
+    result.isolated.push_back(zero);
+}
+
+}  // namespace umbilic

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include <umbilic/bernstein/subdivision.h>
+#include <umbilic/bernstein/tensor_polynomial.h>
+#include <umbilic/core/progress.h>
+#include <umbilic/core/types.h>
+
+namespace umbilic {
+
+/// A proved simple common zero.
+struct IsolatedZero {
+    Vector2 at = Vector2::Zero();
+    /// Bound on the distance of `at` from the zero, per coordinate, with the input taken as exact.
+    Vector2 radius = Vector2::Zero();
+    /// The same, with the input taken as rounded.
+    Vector2 input_radius = Vector2::Zero();
+    ParameterBox box;  ///< exactly one zero lies in it; may reach out of [0, 1]^2, to which both polynomials continue
+    int sign = 0;      ///< sign of the Jacobian determinant of (a, b) at the zero
+};
+
+/// A box that could be neither excluded nor proved.
+struct OpenBox {
+    ParameterBox box;
+    bool zero = false;  ///< both polynomials are zero on it within the input's rounding
+};
+
+struct CommonZeros {
+    std::vector<IsolatedZero> isolated;
+    std::vector<OpenBox> open;
+    long boxes = 0;  ///< visited
+    bool exhausted = false;
+
+    void clear();
+};
+
+struct SearchLimits {
+    double u_size = 1e-3;  ///< boxes are not split in a direction in which they are at most this long
+    double v_size = 1e-3;
+    long boxes = 100000;  ///< visited before the rest is left open
+};
+
+/// Common zeros in [0, 1]^2 of two bivariate polynomials of the same bidegree by subdivision in the Bernstein basis,
+/// with exclusion by convex hulls, preconditioning by the mean derivative and proof by a contraction (docs/numerics.md,
+/// section "Search"). Memory is kept from call to call.
+class CommonZeroSearch {
+public:
+    /// Takes the polynomials; they are scaled to one magnitude by powers of two.
+    void set_polynomials(const TensorPolynomial& a, const TensorPolynomial& b);
+
+    /// Searches `part` of [0, 1]^2 and appends what it finds. Throws Cancelled.
+    void search(const ParameterBox& part, const SearchLimits& limits, const Progress& progress, CommonZeros& result);
+
+    /// Appends a zero unless `result` holds the same one already.
+    static void add_zero(const IsolatedZero& zero, CommonZeros& result);
+
+private:
+    /// Bounds on the errors of the coefficients of a and b on one box.
+    struct Bounds {
+        CoefficientBound a, b;
+    };
+    struct Node {
+        ParameterBox box;
+        Bounds bounds;
+    };
+    enum class Outcome { empty, isolated, zero, split };
+    struct Residual {
+        Vector2 value;
+        double rounding[2];  ///< bounds on the error of each component of `value`
+        double input[2];
+    };
+
+    Outcome examine(const Node& node, const double* coefficients, CommonZeros& result);
+    Outcome isolate(const Node& node, const double* coefficients, const Matrix2& preconditioner, double contraction,
+                    CommonZeros& result);
+    bool newton(const double* coefficients, Vector2& at);
+    void evaluate(const double* coefficients, const Vector2& at, Vector2& value, Matrix2* jacobian);
+    Residual residual(const double* coefficients, const Bounds& bounds, const Matrix2& preconditioner,
+                      const Vector2& at);
+    /// Row-sum norm of I - g', g = preconditioner (a, b), over the whole box; none if g has a component without zero.
+    std::optional<double> contraction(const double* coefficients, const Bounds& bounds, const Matrix2& preconditioner);
+
+    CoefficientShape shape_;
+    std::vector<double> root_;  ///< coefficients of a, then of b
+    Bounds root_bounds_;
+    std::vector<double> slots_;  ///< one pair of arrays per open node of the depth-first tree
+    std::vector<Node> nodes_;
+    std::vector<double> combined_, enlarged_, basis_;
+    std::array<double, 2> magnitude_{};
+    double u_variation_ = 0.0, v_variation_ = 0.0;
+};
+
+}  // namespace umbilic

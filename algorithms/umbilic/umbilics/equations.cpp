@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <umbilic/umbilics/equations.h>
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+
+#include <umbilic/bernstein/binomials.h>
+#include <umbilic/bernstein/rounding.h>
+
+namespace umbilic {
+
+namespace {
+
+constexpr double ulp_of_one = std::numeric_limits<double>::epsilon();
+
+void sum(std::initializer_list<ProductTerm> terms, TensorPolynomial& result) {
+    sum_of_products({terms.begin(), terms.size()}, result);
+}
+
+bool vanishes(const TensorPolynomial& polynomial) {
+    return polynomial.magnitude == 0.0 && polynomial.bound.input == 0.0;
+}
+
+/// result = a b - c d, of the smallest bidegree that holds both products. A factor that is exactly zero (a second
+/// derivative across a linear direction) has no degree.
+void difference_of_products(const TensorPolynomial& a, const TensorPolynomial& b, const TensorPolynomial& c,
+                            const TensorPolynomial& d, TensorPolynomial& result) {
+    const bool first = !vanishes(a) && !vanishes(b), second = !vanishes(c) && !vanishes(d);
+    if (!first && !second) return result.set_zero(a.u_degree + b.u_degree, a.v_degree + b.v_degree);
+    if (!second) return sum({{&a, &b}}, result);
+    if (!first) return sum({{&c, &d, -1.0}}, result);
+    const int u_gap = a.u_degree + b.u_degree - c.u_degree - d.u_degree;
+    const int v_gap = a.v_degree + b.v_degree - c.v_degree - d.v_degree;
+    if (u_gap == 0 && v_gap == 0) return sum({{&a, &b}, {&c, &d, -1.0}}, result);
+    TensorPolynomial raised_b = b, raised_d = d;
+    elevate(raised_b, std::max(0, -u_gap), std::max(0, -v_gap));
+    elevate(raised_d, std::max(0, u_gap), std::max(0, v_gap));
+    sum({{&a, &raised_b}, {&c, &raised_d, -1.0}}, result);
+}
+
+void raise_to_common_degree(TensorPolynomial& a, TensorPolynomial& b) {
+    const int p = std::max(a.u_degree, b.u_degree), q = std::max(a.v_degree, b.v_degree);
+    elevate(a, p - a.u_degree, q - a.v_degree);
+    elevate(b, p - b.u_degree, q - b.v_degree);
+}
+
+/// Univariate polynomial on an edge, as a tensor polynomial of degree 0 across it.
+TensorPolynomial restriction(const TensorPolynomial& polynomial, Edge edge) {
+    const bool across_u = edge == Edge::u_low || edge == Edge::u_high;
+    TensorPolynomial result;
+    result.set_zero(across_u ? 0 : polynomial.u_degree, across_u ? polynomial.v_degree : 0);
+    for (int k = 0; k < static_cast<int>(result.scaled.size()); ++k) {
+        const int i = across_u ? (edge == Edge::u_low ? 0 : polynomial.u_degree) : k;
+        const int j = across_u ? k : (edge == Edge::v_low ? 0 : polynomial.v_degree);
+        result.scaled[k] = polynomial.scaled[i * polynomial.row_length() + j];
+    }
+    result.bound = polynomial.bound;
+    result.measure();
+    return result;
+}
+
+}  // namespace
+
+InputRounding input_rounding(const NurbsSurface& surface) {
+    InputRounding result;
+    for (const Vector3& pole : surface.poles())
+        result.position = std::max(result.position, ulp_of_one * pole.cwiseAbs().maxCoeff());
+    for (const double weight : surface.weights()) result.weight = std::max(result.weight, ulp_of_one * weight);
+    return result;
+}
+
+void UmbilicEquations::load(const BezierPatch& patch, const InputRounding& input) {
+    p_ = patch.u_degree;
+    q_ = patch.v_degree;
+    const int count = (p_ + 1) * (q_ + 1);
+    double position = 0.0, weight = 0.0, lightest = std::numeric_limits<double>::infinity();
+    for (const Vector4& pole : patch.poles) {
+        position = std::max(position, pole.head<3>().cwiseAbs().maxCoeff());
+        weight = std::max(weight, pole[3]);
+        lightest = std::min(lightest, pole[3]);
+    }
+    // Powers of two: exact, and nothing over- or underflows whatever the unit of length.
+    const double position_scale = position > 0.0 ? std::ldexp(1.0, -std::ilogb(position)) : 1.0;
+    const double weight_scale = std::ldexp(1.0, -std::ilogb(weight));
+    const double position_input = patch.position_error + weight * input.position + position / lightest * input.weight;
+    for (int k = 0; k < 4; ++k) {
+        const double scale = k < 3 ? position_scale : weight_scale;
+        net_[k].resize(count);
+        net_magnitude_[k] = 0.0;
+        for (int at = 0; at < count; ++at) {
+            net_[k][at] = patch.poles[at][k] * scale;
+            net_magnitude_[k] = std::max(net_magnitude_[k], std::abs(net_[k][at]));
+        }
+        if (k < 3)
+            net_bound_[k] = {patch.position_error * scale, position_input * scale * bound_slack};
+        else
+            net_bound_[k] = {patch.weight_error * scale, (patch.weight_error + input.weight) * scale * bound_slack};
+    }
+    find_collapsed_edges();
+}
+
+void UmbilicEquations::find_collapsed_edges() {
+    for (const Edge edge : {Edge::u_low, Edge::u_high, Edge::v_low, Edge::v_high}) {
+        const bool across_u = edge == Edge::u_low || edge == Edge::u_high;
+        const auto at = [&](int k) {
+            if (across_u) return (edge == Edge::u_low ? 0 : p_) * (q_ + 1) + k;
+            return k * (q_ + 1) + (edge == Edge::v_low ? 0 : q_);
+        };
+        bool same = true;
+        for (int k = 1; k <= (across_u ? q_ : p_); ++k)
+            for (int c = 0; c < 3; ++c) {
+                const double gap = net_[c][at(k)] * net_[3][at(0)] - net_[c][at(0)] * net_[3][at(k)];
+                const double bound = 4.0 * (net_bound_[c].input * net_magnitude_[3] +
+                                            (net_bound_[3].input + ulp_of_one) * net_magnitude_[c]);
+                same = same && std::abs(gap) <= bound;
+            }
+        collapsed_[static_cast<int>(edge)] = same;
+    }
+}
+
+void UmbilicEquations::difference(int k, int u_order, int v_order, double factor, TensorPolynomial& result) const {
+    if (p_ < u_order || q_ < v_order) return result.set_zero(0, 0);
+    result.set_zero(p_ - u_order, q_ - v_order);
+    const double* bu = binomials(result.u_degree);
+    const double* bv = binomials(result.v_degree);
+    const int row = q_ + 1;
+    // Weights of the differences of order 0, 1, 2.
+    static constexpr double stencil[3][3] = {{1, 0, 0}, {-1, 1, 0}, {1, -2, 1}};
+    for (int i = 0; i <= result.u_degree; ++i)
+        for (int j = 0; j <= result.v_degree; ++j) {
+            double value = 0.0;
+            for (int s = 0; s <= u_order; ++s)
+                for (int t = 0; t <= v_order; ++t)
+                    value += stencil[u_order][s] * stencil[v_order][t] * net_[k][(i + s) * row + j + t];
+            result.scaled[i * result.row_length() + j] = value * factor * (bu[i] * bv[j]);
+        }
+    // At most four terms (weights 1 or 2), then two products and a product of binomials.
+    const double growth = std::ldexp(factor, u_order + v_order);
+    const double arithmetic = gamma_bound(6) * net_magnitude_[k];
+    result.bound = {growth * (net_bound_[k].rounding + arithmetic) * bound_slack,
+                    growth * (net_bound_[k].input + arithmetic) * bound_slack};
+    result.measure();
+}
+
+void UmbilicEquations::sub_net(int k, int u_start, int u_drop, int v_start, int v_drop, double factor,
+                               TensorPolynomial& result) const {
+    if (p_ < u_drop || q_ < v_drop) return result.set_zero(0, 0);
+    result.set_zero(p_ - u_drop, q_ - v_drop);
+    const double* bu = binomials(result.u_degree);
+    const double* bv = binomials(result.v_degree);
+    for (int i = 0; i <= result.u_degree; ++i)
+        for (int j = 0; j <= result.v_degree; ++j)
+            result.scaled[i * result.row_length() + j] =
+                net_[k][(i + u_start) * (q_ + 1) + j + v_start] * factor * (bu[i] * bv[j]);
+    const double arithmetic = gamma_bound(3) * net_magnitude_[k];
+    result.bound = {factor * (net_bound_[k].rounding + arithmetic) * bound_slack,
+                    factor * (net_bound_[k].input + arithmetic) * bound_slack};
+    result.measure();
+}
+
+void UmbilicEquations::form_fundamental(const BezierPatch& patch, const InputRounding& input) {
+    load(patch, input);
+    if (patch.rational)
+        form_rational();
+    else
+        form_integral();
+}
+
+void UmbilicEquations::form_integral() {
+    const double p = p_, q = q_;
+    for (int k = 0; k < 3; ++k) {
+        difference(k, 1, 0, p, u_[k]);
+        difference(k, 0, 1, q, v_[k]);
+        difference(k, 2, 0, p * (p - 1), uu_[k]);
+        difference(k, 1, 1, p * q, uv_[k]);
+        difference(k, 0, 2, q * (q - 1), vv_[k]);
+    }
+    for (int k = 0; k < 3; ++k) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        sum({{&u_[i], &v_[j]}, {&u_[j], &v_[i], -1.0}}, normal_[k]);
+    }
+    const auto dot = [](const Vector3Polynomial& x, const Vector3Polynomial& y, TensorPolynomial& result) {
+        sum({{&x[0], &y[0]}, {&x[1], &y[1]}, {&x[2], &y[2]}}, result);
+    };
+    dot(u_, u_, e_);
+    dot(u_, v_, f_);
+    dot(v_, v_, g_);
+    const auto normal_dot = [&](const Vector3Polynomial& x, bool exists, TensorPolynomial& result) {
+        if (exists)
+            dot(normal_, x, result);
+        else
+            result.set_zero(0, 0);
+    };
+    normal_dot(uu_, p_ > 1, l_);
+    normal_dot(uv_, true, m_);
+    normal_dot(vv_, q_ > 1, n_);
+}
+
+void UmbilicEquations::form_rational() {
+    const double p = p_, q = q_;
+    // w^2 r_u = w P_u - P w_u = p (w0 X1 - X0 w1) with the halves of the net, likewise for v.
+    for (int k = 0; k < 4; ++k) {
+        sub_net(k, 0, 1, 0, 0, k == 3 ? p : 1.0, part_[0][k]);
+        sub_net(k, 1, 1, 0, 0, k == 3 ? p : 1.0, part_[1][k]);
+        sub_net(k, 0, 0, 0, 1, k == 3 ? q : 1.0, part_[2][k]);
+        sub_net(k, 0, 0, 1, 1, k == 3 ? q : 1.0, part_[3][k]);
+    }
+    for (int k = 0; k < 3; ++k) {
+        sum({{&part_[0][3], &part_[1][k]}, {&part_[0][k], &part_[1][3], -1.0}}, u_[k]);
+        sum({{&part_[2][3], &part_[3][k]}, {&part_[2][k], &part_[3][3], -1.0}}, v_[k]);
+    }
+    sum({{&u_[0], &u_[0]}, {&u_[1], &u_[1]}, {&u_[2], &u_[2]}}, e_);
+    sum({{&u_[0], &v_[0]}, {&u_[1], &v_[1]}, {&u_[2], &v_[2]}}, f_);
+    sum({{&v_[0], &v_[0]}, {&v_[1], &v_[1]}, {&v_[2], &v_[2]}}, g_);
+
+    // det(P, P_u, P_v, P_uv) = p^2 q^2 det(P00, P10, P01, P11).
+    for (int k = 0; k < 4; ++k) {
+        sub_net(k, 0, 1, 0, 1, 1.0, part_[0][k]);
+        sub_net(k, 1, 1, 0, 1, p * q, part_[1][k]);
+        sub_net(k, 0, 1, 1, 1, 1.0, part_[2][k]);
+        sub_net(k, 1, 1, 1, 1, p * q, part_[3][k]);
+    }
+    determinant(part_[0], part_[1], part_[2], part_[3], m_);
+
+    // det(P, P_u, P_v, P_uu) = -p^2 (p - 1) det(Q0, Q1, Q2, P_v) = p^2 (p - 1) det(Q1, Q0, Q2, P_v).
+    if (p_ > 1) {
+        for (int k = 0; k < 4; ++k) {
+            sub_net(k, 1, 2, 0, 0, p, part_[0][k]);
+            sub_net(k, 0, 2, 0, 0, 1.0, part_[1][k]);
+            sub_net(k, 2, 2, 0, 0, p * (p - 1), part_[2][k]);
+            difference(k, 0, 1, q, part_[3][k]);
+        }
+        determinant(part_[0], part_[1], part_[2], part_[3], l_);
+    } else {
+        l_.set_zero(0, 0);
+    }
+    // det(P, P_u, P_v, P_vv) = q^2 (q - 1) det(R0, R1, R2, P_u).
+    if (q_ > 1) {
+        for (int k = 0; k < 4; ++k) {
+            sub_net(k, 0, 0, 0, 2, q, part_[0][k]);
+            sub_net(k, 0, 0, 1, 2, 1.0, part_[1][k]);
+            sub_net(k, 0, 0, 2, 2, q * (q - 1), part_[2][k]);
+            difference(k, 1, 0, p, part_[3][k]);
+        }
+        determinant(part_[0], part_[1], part_[2], part_[3], n_);
+    } else {
+        n_.set_zero(0, 0);
+    }
+}
+
+void UmbilicEquations::determinant(const Vector4Polynomial& a, const Vector4Polynomial& b, const Vector4Polynomial& c,
+                                   const Vector4Polynomial& d, TensorPolynomial& result) {
+    // Laplace's expansion by the first two columns.
+    static constexpr int pair[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+    for (int k = 0; k < 6; ++k) {
+        const auto [i, j] = pair[k];
+        sum({{&a[i], &b[j]}, {&a[j], &b[i], -1.0}}, minor_[k]);
+        sum({{&c[i], &d[j]}, {&c[j], &d[i], -1.0}}, other_minor_[k]);
+    }
+    sum({{&minor_[0], &other_minor_[5]},
+         {&minor_[1], &other_minor_[4], -1.0},
+         {&minor_[2], &other_minor_[3]},
+         {&minor_[3], &other_minor_[2]},
+         {&minor_[4], &other_minor_[1], -1.0},
+         {&minor_[5], &other_minor_[0]}},
+        result);
+}
+
+bool UmbilicEquations::excluded_by_hulls() const {
+    const Interval e = e_.coefficient_hull(), f = f_.coefficient_hull(), g = g_.coefficient_hull();
+    const Interval l = l_.coefficient_hull(), m = m_.coefficient_hull(), n = n_.coefficient_hull();
+    return !(e * m - f * l).contains(0.0) || !(e * n - g * l).contains(0.0) || !(f * n - g * m).contains(0.0);
+}
+
+void UmbilicEquations::form_umbilic() {
+    difference_of_products(e_, m_, f_, l_, a_);
+    difference_of_products(e_, n_, g_, l_, b_);
+    raise_to_common_degree(a_, b_);
+}
+
+EdgeEquations UmbilicEquations::edge_equations(Edge edge) const {
+    const TensorPolynomial e = restriction(e_, edge), f = restriction(f_, edge), g = restriction(g_, edge);
+    const TensorPolynomial l = restriction(l_, edge), m = restriction(m_, edge), n = restriction(n_, edge);
+    TensorPolynomial a, b;
+    difference_of_products(e, m, f, l, a);
+    difference_of_products(e, n, g, l, b);
+    raise_to_common_degree(a, b);
+    EdgeEquations result;
+    result.a.resize(a.scaled.size());
+    result.b.resize(b.scaled.size());
+    result.a_error = a.bernstein_coefficients(result.a).rounding;
+    result.b_error = b.bernstein_coefficients(result.b).rounding;
+    return result;
+}
+
+void UmbilicEquations::divide_by_collapsed_edges() {
+    for (const Edge edge : {Edge::u_low, Edge::u_high, Edge::v_low, Edge::v_high}) {
+        if (!collapsed(edge)) continue;
+        for (TensorPolynomial* polynomial : {&a_, &b_})
+            for (int order = 0; order < maximum_pole_order; ++order) {
+                const bool across_u = edge == Edge::u_low || edge == Edge::u_high;
+                if ((across_u ? polynomial->u_degree : polynomial->v_degree) == 0) break;
+                if (edge_magnitude(*polynomial, edge) > polynomial->bound.input) break;
+                divide_by_edge(*polynomial, edge);
+            }
+    }
+    raise_to_common_degree(a_, b_);
+}
+
+}  // namespace umbilic

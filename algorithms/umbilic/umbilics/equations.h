@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include <umbilic/bernstein/tensor_polynomial.h>
+#include <umbilic/nurbs/bezier_patch.h>
+
+namespace umbilic {
+
+/// How far the numbers of a surface may lie from those they stand for, absolutely: one ulp of the largest. It decides
+/// what is called identically zero, never what is called proved.
+struct InputRounding {
+    double position = 0.0;  ///< of a coordinate of a control point
+    double weight = 0.0;
+};
+
+/// One ulp of the largest coordinate and of the largest weight of the surface.
+InputRounding input_rounding(const NurbsSurface& surface);
+
+/// Bernstein coefficients of A and B along one edge of a patch, increasing, of one degree.
+struct EdgeEquations {
+    std::vector<double> a, b;
+    double a_error = 0.0, b_error = 0.0;  ///< bounds on the coefficients' errors
+};
+
+/// Polynomials whose common zeros are the umbilics of a Bezier patch:
+///   A = E m - F l,  B = E n - G l,  C = F n - G m,
+/// with E, F, G and l, m, n the fundamental forms up to common positive factors, without the normalisation of the
+/// normal (for rational patches in homogeneous form); A du^2 + B du dv + C dv^2 = 0 are the principal directions.
+/// Coordinates and weights are scaled by powers of two first; parameters are the patch's own on [0, 1]^2. Derivation,
+/// degrees and bounds: docs/numerics.md. Memory is kept from patch to patch.
+class UmbilicEquations {
+public:
+    /// Forms E, F, G, l, m, n.
+    void form_fundamental(const BezierPatch& patch, const InputRounding& input);
+    /// True if interval products of coefficient hulls prove that A, B or C has no zero on the patch. Needs
+    /// form_fundamental.
+    bool excluded_by_hulls() const;
+    /// Forms A and B and raises both to one bidegree. Needs form_fundamental.
+    void form_umbilic();
+
+    const TensorPolynomial& a() const { return a_; }
+    const TensorPolynomial& b() const { return b_; }
+
+    /// Restriction to an edge. Needs form_fundamental only.
+    EdgeEquations edge_equations(Edge edge) const;
+
+    /// Edges whose control points all coincide within the input's rounding (poles).
+    bool collapsed(Edge edge) const { return collapsed_[static_cast<int>(edge)]; }
+    /// Divides A and B by the factors that vanish on collapsed edges, up to `maximum_pole_order` of each as far as
+    /// they vanish within the input's rounding, and raises both to one bidegree again. Needs form_umbilic.
+    void divide_by_collapsed_edges();
+
+    /// A contains at most the fourth power of the distance from a collapsed edge, B the third.
+    static constexpr int maximum_pole_order = 4;
+
+private:
+    using Vector3Polynomial = std::array<TensorPolynomial, 3>;
+    using Vector4Polynomial = std::array<TensorPolynomial, 4>;
+
+    void load(const BezierPatch& patch, const InputRounding& input);
+    void find_collapsed_edges();
+    void form_integral();
+    void form_rational();
+    /// Component k of the differences of order (u_order, v_order) of the control net, times `factor`, starting at pole
+    /// (i + u_start, j + v_start), for the degrees that leaves (dropping further rows for `u_drop`, `v_drop`).
+    void difference(int k, int u_order, int v_order, double factor, TensorPolynomial& result) const;
+    /// Component k of the net without its first `u_start` (`v_start`) and last `u_drop - u_start` (...) rows, times
+    /// `factor`: a polar form of P.
+    void sub_net(int k, int u_start, int u_drop, int v_start, int v_drop, double factor,
+                 TensorPolynomial& result) const;
+    void determinant(const Vector4Polynomial& a, const Vector4Polynomial& b, const Vector4Polynomial& c,
+                     const Vector4Polynomial& d, TensorPolynomial& result);
+
+    int p_ = 0, q_ = 0;
+    std::array<bool, 4> collapsed_{};
+    /// Bernstein coefficients of the homogeneous components x, y, z, w.
+    std::array<std::vector<double>, 4> net_;
+    std::array<double, 4> net_magnitude_{};
+    std::array<CoefficientBound, 4> net_bound_;
+
+    TensorPolynomial e_, f_, g_, l_, m_, n_, a_, b_;
+    Vector3Polynomial u_, v_, uu_, uv_, vv_, normal_;
+    std::array<Vector4Polynomial, 4> part_;
+    std::array<TensorPolynomial, 6> minor_, other_minor_;
+};
+
+}  // namespace umbilic

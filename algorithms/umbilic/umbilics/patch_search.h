@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include <umbilic/umbilics/common_zeros.h>
+#include <umbilic/umbilics/equations.h>
+
+namespace umbilic {
+
+/// Angle (radians) through which (A, B) turns along one edge, parameters increasing.
+struct EdgeTurning {
+    bool wanted = false;
+    std::optional<double> angle;  ///< none if the edge may hold an umbilic
+};
+
+/// What the search found on one Bezier patch, in the patch's own parameters.
+struct PatchUmbilics {
+    CommonZeros zeros;
+    bool formed = false;
+    bool collapsed = false;              ///< an edge is a single point
+    std::array<EdgeTurning, 4> turning;  ///< indexed by Edge
+};
+
+/// What is asked of one patch.
+struct PatchTask {
+    SearchLimits limits;          ///< sizes in the patch's own parameters
+    std::array<bool, 4> edges{};  ///< edges along which the turning of (A, B) is wanted
+};
+
+/// Forms the equations of patches and finds their umbilics; memory is kept from patch to patch.
+class PatchSearch {
+public:
+    PatchUmbilics search(const BezierPatch& patch, const InputRounding& input, const PatchTask& task,
+                         const Progress& progress);
+
+private:
+    void refine(const PatchTask& task, const Progress& progress, CommonZeros& zeros);
+
+    UmbilicEquations equations_;
+    CommonZeroSearch zeros_;
+};
+
+}  // namespace umbilic
