@@ -51,11 +51,19 @@ NurbsCurve2 to_nurbs(const Handle(Geom2d_Curve) & curve, double first, double la
     return NurbsCurve2(KnotVector(spline->Degree(), std::move(knots)), std::move(poles), std::move(weights));
 }
 
-int boundary_edge_count(const TopoDS_Wire& wire) {
-    int count = 0;
+bool is_boundary(const TopoDS_Shape& edge) {
+    return edge.Orientation() == TopAbs_FORWARD || edge.Orientation() == TopAbs_REVERSED;
+}
+
+/// Edges of a wire in the order in which they follow each other; in the order of the file if they cannot be followed
+/// by their vertices.
+std::vector<TopoDS_Edge> ordered_edges(const TopoDS_Wire& wire, const TopoDS_Face& face) {
+    std::vector<TopoDS_Edge> stored, followed;
     for (TopoDS_Iterator it(wire); it.More(); it.Next())
-        if (it.Value().Orientation() == TopAbs_FORWARD || it.Value().Orientation() == TopAbs_REVERSED) ++count;
-    return count;
+        if (is_boundary(it.Value())) stored.push_back(TopoDS::Edge(it.Value()));
+    for (BRepTools_WireExplorer explorer(wire, face); explorer.More(); explorer.Next())
+        if (is_boundary(explorer.Current())) followed.push_back(explorer.Current());
+    return followed.size() == stored.size() ? followed : stored;
 }
 
 void add(ParameterBox& box, const Bnd_Box2d& other) {
@@ -76,12 +84,8 @@ FaceLoops face_loops(const TopoDS_Face& oriented_face, const TopTools_IndexedMap
     for (TopoDS_Iterator it(face); it.More(); it.Next()) {
         if (it.Value().ShapeType() != TopAbs_WIRE) continue;
         const TopoDS_Wire wire = TopoDS::Wire(it.Value());
-        const int expected = boundary_edge_count(wire);
-        if (expected == 0) continue;
         TrimmingLoop loop;
-        for (BRepTools_WireExplorer explorer(wire, face); explorer.More(); explorer.Next()) {
-            const TopoDS_Edge edge = explorer.Current();
-            if (edge.Orientation() != TopAbs_FORWARD && edge.Orientation() != TopAbs_REVERSED) continue;
+        for (const TopoDS_Edge& edge : ordered_edges(wire, face)) {
             double first = 0.0, last = 0.0;
             const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face, first, last);
             if (curve.IsNull()) throw InvalidInput("an edge has no curve in the parameters of the face");
@@ -100,10 +104,7 @@ FaceLoops face_loops(const TopoDS_Face& oriented_face, const TopTools_IndexedMap
             add(result.range, box);
             loop.push_back(std::move(trimming));
         }
-        if (static_cast<int>(loop.size()) != expected)
-            throw InvalidInput("only " + std::to_string(loop.size()) + " of the " + std::to_string(expected) +
-                               " edges of a wire follow each other");
-        result.loops.push_back(std::move(loop));
+        if (!loop.empty()) result.loops.push_back(std::move(loop));
     }
     if (result.loops.empty()) {
         ParameterBox& range = result.range;

@@ -21,7 +21,7 @@ struct FaceLoops {
 };
 
 /// Reads the loops from the parameter curves of the edges; `edges` numbers the model's edges from 1. Throws
-/// InvalidInput if an edge has no parameter curve or a wire cannot be followed.
+/// InvalidInput if an edge has no parameter curve.
 FaceLoops face_loops(const TopoDS_Face& face, const TopTools_IndexedMapOfShape& edges);
 
 /// The face with its wires healed (order, gaps, missing parameter curves, seams and degenerate edges) on the same

@@ -129,7 +129,8 @@ void describe_step(const std::string& path, std::string_view text, FileDescripti
                            ": the STEP file is cut off (it has no ENDSEC and END-ISO-10303-21 at its end); get "
                            "the whole file or export it again");
     if (!scan.ended) result.warnings.push_back("the file does not end with END-ISO-10303-21");
-    result.declared_faces = scan.faces;
+    // Surfaces that stand alone become faces, too, so a file without a face declares nothing about their number.
+    if (scan.faces > 0) result.declared_faces = scan.faces;
 }
 
 std::optional<int> iges_integer(std::string_view field) {

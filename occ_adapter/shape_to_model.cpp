@@ -4,14 +4,12 @@
 #include <cmath>
 #include <utility>
 
-#include <BRepBndLib.hxx>
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepGProp.hxx>
 #include <BRep_Tool.hxx>
-#include <Bnd_Box.hxx>
 #include <GProp_GProps.hxx>
-#include <GProp_PrincipalProps.hxx>
 #include <Geom_Surface.hxx>
+#include <Precision.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
@@ -24,6 +22,7 @@
 #include "face_loops.h"
 #include "occ_types.h"
 #include "surface_conversion.h"
+#include "trimmed_box.h"
 
 namespace umbilic {
 
@@ -32,6 +31,19 @@ namespace {
 /// The kernel's own word for an infinite coordinate or parameter is 2e100 (Precision::Infinite()); coordinates (mm)
 /// beyond a hundred times the distance of the Moon are taken as such, too.
 constexpr double largest_coordinate = 4e13;
+
+/// Relative error asked of the kernel's adaptive integration of areas and volumes. Its plain one, without a bound, can
+/// be off by several percent on real B-spline faces.
+constexpr double integration_accuracy = 1e-6;
+
+/// A face of a smaller area (mm^2) is a point or a line; the kernel's own smallest length, squared.
+const double smallest_area = Precision::SquareConfusion();
+
+void check_area(double area) {
+    if (!std::isfinite(area)) throw InvalidInput("its area is not finite");
+    if (std::abs(area) <= smallest_area) throw InvalidInput("it is collapsed: its area is zero");
+    if (area < 0.0) throw InvalidInput("its area is negative: its boundary runs the wrong way around");
+}
 
 std::string message_of(const Standard_Failure& failure) {
     const char* text = failure.GetMessageString();
@@ -91,27 +103,26 @@ Face to_face(const TopoDS_Face& face, int number, const TopTools_IndexedMapOfSha
     LoopsAndRegion parts = convert_or_heal(face, number, edges, repaired);
     Face result{number, parts.surface.kind, parts.surface.elementary, std::move(parts.surface.surface),
                 std::move(parts.region)};
-    result.reversed = face.Orientation() == TopAbs_REVERSED;
     result.u_closed = parts.surface.u_closed;
     result.v_closed = parts.surface.v_closed;
     result.u_periodic = parts.surface.u_periodic;
     result.v_periodic = parts.surface.v_periodic;
     result.conversion_error = parts.surface.error;
     result.tolerance = parts.loops.tolerance;
-    GProp_GProps properties;
-    BRepGProp::SurfaceProperties(face, properties);
-    result.area = properties.Mass();
-    if (!std::isfinite(result.area)) throw InvalidInput("its area is not finite");
     return result;
 }
 
+double area_of(const TopoDS_Shape& face) {
+    GProp_GProps properties;
+    BRepGProp::SurfaceProperties(face, properties, integration_accuracy);
+    return properties.Mass();
+}
+
 Solid to_solid(const TopoDS_Shape& shape) {
-    GProp_GProps volume, surface;
-    BRepGProp::VolumeProperties(shape, volume);
-    BRepGProp::SurfaceProperties(shape, surface);
+    GProp_GProps volume;
+    BRepGProp::VolumeProperties(shape, volume, integration_accuracy);
     Solid result;
     result.volume = volume.Mass();
-    result.area = surface.Mass();
     result.centroid = to_vector(volume.CentreOfMass());
     const gp_Mat inertia = volume.MatrixOfInertia();
     for (int i = 0; i < 3; ++i)
@@ -119,44 +130,51 @@ Solid to_solid(const TopoDS_Shape& shape) {
     return result;
 }
 
-BoundingBox box_of(const TopoDS_Shape& shape) {
-    Bnd_Box box;
-    BRepBndLib::AddOptimal(shape, box, false, false);
-    BoundingBox result;
-    if (box.IsVoid()) return result;
-    double x0, y0, z0, x1, y1, z1;
-    box.Get(x0, y0, z0, x1, y1, z1);
-    result.low = Vector3(x0, y0, z0);
-    result.high = Vector3(x1, y1, z1);
-    return result;
-}
+/// What the topology says about each face, by its number.
+struct FacePlaces {
+    std::vector<double> area;
+    std::vector<int> solid;      ///< index into Model::solids, or -1
+    std::vector<bool> reversed;  ///< as Face::reversed
+};
 
-void add_solids(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& faces, Model& model,
-                std::vector<int>& solid_of_face, std::vector<bool>& reversed) {
+FacePlaces measure(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& faces, Model& model,
+                   const Progress& progress) {
+    FacePlaces places;
+    places.area.assign(faces.Extent() + 1, 0.0);
+    places.solid.assign(faces.Extent() + 1, -1);
+    places.reversed.assign(faces.Extent() + 1, false);
+    for (int i = 1; i <= faces.Extent(); ++i) {
+        progress.report(0.5 * i / faces.Extent(), "measuring faces");
+        places.area[i] = area_of(faces(i));
+        places.reversed[i] = faces(i).Orientation() == TopAbs_REVERSED;
+    }
     TopTools_IndexedMapOfShape solids;
     TopExp::MapShapes(shape, TopAbs_SOLID, solids);
     for (int i = 1; i <= solids.Extent(); ++i) {
+        progress.report(0.5 + 0.5 * (i - 1) / solids.Extent(), "measuring solids");
         Solid solid = to_solid(solids(i));
-        if (!std::isfinite(solid.volume) || !solid.inertia.allFinite() || !solid.centroid.allFinite()) {
-            model.warnings.push_back("solid " + std::to_string(i) + " has no finite volume and is left out");
-            continue;
-        }
         const bool inside_out = solid.volume < 0.0;
         if (inside_out) {
             solid.volume = -solid.volume;
             solid.inertia = -solid.inertia;
             model.repaired.push_back("solid " + std::to_string(i) +
-                                     " was inside out: the sides of its faces exchanged");
+                                     " was inside out: the sides of its faces are exchanged");
+        }
+        if (!std::isfinite(solid.volume) || !solid.inertia.allFinite() || !solid.centroid.allFinite()) {
+            model.warnings.push_back("solid " + std::to_string(i) + " has no finite volume; its volume is given as 0");
+            solid = Solid();
         }
         for (TopExp_Explorer explorer(solids(i), TopAbs_FACE); explorer.More(); explorer.Next()) {
             const int number = faces.FindIndex(explorer.Current());
-            if (solid_of_face[number] >= 0) continue;
-            solid_of_face[number] = static_cast<int>(model.solids.size());
-            reversed[number] = (explorer.Current().Orientation() == TopAbs_REVERSED) != inside_out;
+            solid.area += places.area[number];
+            if (places.solid[number] >= 0) continue;
+            places.solid[number] = i - 1;
+            places.reversed[number] = (explorer.Current().Orientation() == TopAbs_REVERSED) != inside_out;
         }
         model.volume += solid.volume;
         model.solids.push_back(std::move(solid));
     }
+    return places;
 }
 
 }  // namespace
@@ -171,18 +189,17 @@ Model shape_to_model(const TopoDS_Shape& shape, const Progress& progress) {
 
     Model model;
     model.shells = shells.Extent();
-    std::vector<int> solid_of_face(faces.Extent() + 1, -1);
-    std::vector<bool> reversed(faces.Extent() + 1, false);
-    for (int i = 1; i <= faces.Extent(); ++i) reversed[i] = faces(i).Orientation() == TopAbs_REVERSED;
-    progress.report(0.0, "measuring solids");
-    add_solids(shape, faces, model, solid_of_face, reversed);
+    const FacePlaces places = measure(shape, faces, model, progress.part(0.0, 0.5));
 
     for (int i = 1; i <= faces.Extent(); ++i) {
-        progress.report(0.2 + 0.5 * (i - 1) / faces.Extent(), "converting faces");
+        progress.report(0.5 + 0.4 * (i - 1) / faces.Extent(), "converting faces");
         try {
+            check_area(places.area[i]);
             Face face = to_face(TopoDS::Face(faces(i)), i, edges, model.repaired);
-            face.solid = solid_of_face[i];
-            face.reversed = reversed[i];
+            face.area = places.area[i];
+            face.solid = places.solid[i];
+            face.reversed = places.reversed[i];
+            extend_box(face.surface, face.region, model.box);
             model.area += face.area;
             model.faces.push_back(std::move(face));
         } catch (const Cancelled&) {
@@ -197,14 +214,10 @@ Model shape_to_model(const TopoDS_Shape& shape, const Progress& progress) {
         throw InvalidInput("none of its " + std::to_string(faces.Extent()) +
                            " faces can be used; face 1: " + model.skipped.front().why);
 
-    for (const Face& face : model.faces) {
-        progress.report(0.7 + 0.15 * face.number / faces.Extent(), "bounding faces");
-        model.box.add(box_of(faces(face.number)));
-    }
     if (model.box.empty() || !(model.box.low.cwiseAbs().maxCoeff() < largest_coordinate) ||
         !(model.box.high.cwiseAbs().maxCoeff() < largest_coordinate))
         throw InvalidInput("its shape is empty or infinite");
-    progress.report(0.85, "checking topology");
+    progress.report(0.9, "checking topology");
     model.valid = BRepCheck_Analyzer(shape).IsValid();
     progress.report(1.0, "checking topology");
     return model;

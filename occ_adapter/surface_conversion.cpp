@@ -142,7 +142,7 @@ Sheet from_bspline(const Handle(Geom_BSplineSurface) & surface, const ParameterB
 
 Sheet from_revolution(const Geom_SurfaceOfRevolution& surface, const ProfileCurve& meridian,
                       const ParameterInterval& angles) {
-    const Frame frame(gp_Ax3(surface.ReferencePlane()));
+    const Frame frame(gp_Ax3(surface.Location(), surface.Direction()));
     ProfileCurve local = meridian;
     for (Vector3& pole : local.poles) {
         const Vector3 from_origin = pole - frame.origin;

@@ -17,11 +17,24 @@ namespace {
 /// segment. Files written with single-precision or loose tolerances stay below; a loop with a missing edge does not.
 constexpr double largest_gap = 1e-2;
 
+/// The search in the polylines looks at bands of equal height that hold about this many segments, were all short.
+constexpr int segments_per_band = 4;
+constexpr int most_bands = 1 << 14;
+
 /// A curve is halved at most this often when it is turned into a polyline.
 constexpr int deepest_halving = 14;
 
 Vector2 scaled(const ParameterBox& domain, const Vector2& p) {
     return {(p.x() - domain.u.low) / domain.u.length(), (p.y() - domain.v.low) / domain.v.length()};
+}
+
+/// Gap between the end of one curve of a loop and the start of the next, relative to the domain's sides. What happens
+/// outside of the domain does not count: a face has no points there.
+double gap(const ParameterBox& domain, const Vector2& end, const Vector2& start) {
+    const auto nearest = [&](const Vector2& p) -> Vector2 {
+        return scaled(domain, {domain.u.clamp(p.x()), domain.v.clamp(p.y())});
+    };
+    return (nearest(end) - nearest(start)).norm();
 }
 
 double segment_distance(const Vector2& p, const Vector2& a, const Vector2& b) {
@@ -107,14 +120,13 @@ TrimmingRegion::TrimmingRegion(ParameterBox domain, std::vector<TrimmingLoop> lo
                 if (!split) break;
             }
             if (curve.reversed) std::reverse(points.begin(), points.end());
-            if (!line.empty() &&
-                (scaled(domain_, line.back()) - scaled(domain_, points.front().second)).norm() > largest_gap)
+            if (!line.empty() && gap(domain_, line.back(), points.front().second) > largest_gap)
                 throw InvalidInput("trimming loop " + std::to_string(number + 1) +
                                    ": its curves do not join in the parameter plane");
             for (const auto& [t, point] : points) line.push_back(point);
         }
         if (line.empty()) throw InvalidInput("trimming loop " + std::to_string(number + 1) + " is empty");
-        if ((scaled(domain_, line.back()) - scaled(domain_, line.front())).norm() > largest_gap)
+        if (gap(domain_, line.back(), line.front()) > largest_gap)
             throw InvalidInput("trimming loop " + std::to_string(number + 1) + " is not closed in the parameter plane");
         if (line.back() != line.front()) line.push_back(line.front());
         polylines_.push_back(std::move(line));
@@ -138,6 +150,39 @@ TrimmingRegion::TrimmingRegion(ParameterBox domain, std::vector<TrimmingLoop> lo
     box_.u = {domain_.u.clamp(box_.u.low), domain_.u.clamp(box_.u.high)};
     box_.v = {domain_.v.clamp(box_.v.low), domain_.v.clamp(box_.v.high)};
     whole_domain_ = on_border && std::abs(std::abs(area) - 1.0) <= 8 * polyline_deviation;
+    build_bands();
+}
+
+void TrimmingRegion::build_bands() {
+    for (const std::vector<Vector2>& line : polylines_)
+        for (std::size_t i = 0; i + 1 < line.size(); ++i)
+            segments_.push_back({scaled(domain_, line[i]), scaled(domain_, line[i + 1])});
+    banded_ = {segments_.front().from.y(), segments_.front().from.y()};
+    for (const Segment& segment : segments_) {
+        banded_.low = std::min({banded_.low, segment.from.y(), segment.to.y()});
+        banded_.high = std::max({banded_.high, segment.from.y(), segment.to.y()});
+    }
+    const int count = std::clamp(static_cast<int>(segments_.size()) / segments_per_band, 1, most_bands);
+    const auto for_each_band = [&](const Segment& segment, const auto& visit) {
+        const int first = band(std::min(segment.from.y(), segment.to.y()));
+        const int last = band(std::max(segment.from.y(), segment.to.y()));
+        for (int i = first; i <= last; ++i) visit(i);
+    };
+    band_start_.assign(count + 1, 0);
+    for (const Segment& segment : segments_) for_each_band(segment, [&](int i) { ++band_start_[i + 1]; });
+    for (int i = 0; i < count; ++i) band_start_[i + 1] += band_start_[i];
+    in_band_.resize(band_start_.back());
+    std::vector<int> next(band_start_.begin(), band_start_.end() - 1);
+    for (int number = 0; number < static_cast<int>(segments_.size()); ++number)
+        for_each_band(segments_[number], [&](int i) { in_band_[next[i]++] = number; });
+}
+
+/// Monotone in its argument, so every segment that reaches the height `scaled_v` is listed in the band found for it.
+int TrimmingRegion::band(double scaled_v) const {
+    const int count = static_cast<int>(band_start_.size()) - 1;
+    if (!(scaled_v > banded_.low)) return 0;
+    if (scaled_v >= banded_.high) return count - 1;
+    return std::min(count - 1, static_cast<int>((scaled_v - banded_.low) / banded_.length() * count));
 }
 
 Vector2 TrimmingRegion::curve_point(const TrimmingCurve& curve, double t) const {
@@ -152,17 +197,20 @@ Containment TrimmingRegion::classify(double u, double v, double radius) const {
         return inward < -radius ? Containment::outside : inward <= radius ? Containment::boundary : Containment::inside;
     }
     const double near = radius + polyline_deviation;
-    bool inside = false;
-    for (const std::vector<Vector2>& line : polylines_)
-        for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-            const Vector2 a = scaled(domain_, line[i]), b = scaled(domain_, line[i + 1]);
+    for (int i = band(p.y() - near), last = band(p.y() + near); i <= last; ++i)
+        for (int at = band_start_[i]; at < band_start_[i + 1]; ++at) {
+            const auto& [a, b] = segments_[in_band_[at]];
             const bool beside = p.x() >= std::min(a.x(), b.x()) - near && p.x() <= std::max(a.x(), b.x()) + near &&
                                 p.y() >= std::min(a.y(), b.y()) - near && p.y() <= std::max(a.y(), b.y()) + near;
             if (beside && segment_distance(p, a, b) <= near) return Containment::boundary;
-            if ((a.y() > p.y()) != (b.y() > p.y()) &&
-                p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
-                inside = !inside;
         }
+    bool inside = false;
+    const int own = band(p.y());
+    for (int at = band_start_[own]; at < band_start_[own + 1]; ++at) {
+        const auto& [a, b] = segments_[in_band_[at]];
+        if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
+            inside = !inside;
+    }
     return inside ? Containment::inside : Containment::outside;
 }
 

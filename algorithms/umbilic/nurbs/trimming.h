@@ -91,6 +91,17 @@ private:
     ParameterMap v_map_;
     std::vector<std::vector<Vector2>> polylines_;
     bool whole_domain_ = true;
+
+    /// Segments of all polylines, scaled to the unit square, and which of them touch each band of equal height in v:
+    /// those of band i are in_band_[band_start_[i]] ... in_band_[band_start_[i + 1]].
+    struct Segment {
+        Vector2 from, to;
+    };
+    void build_bands();
+    int band(double scaled_v) const;
+    std::vector<Segment> segments_;
+    std::vector<int> band_start_, in_band_;
+    ParameterInterval banded_;
 };
 
 }  // namespace umbilic
