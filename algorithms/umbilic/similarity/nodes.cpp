@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include <umbilic/similarity/foot_curvature.h>
 #include <umbilic/similarity/statistics.h>
 #include <umbilic/similarity/thresholds.h>
