@@ -70,7 +70,7 @@ TEST_F(StrongTestTest, DistanceIsInTheUnitOfTheOriginal) {
 TEST_F(StrongTestTest, OtherTypeAtTheSamePlaceIsNoPartner) {
     on_original = {original_star(0.5, 0.5)};
     Umbilic lemon = suspect_star(0.5, 0.5);
-    lemon.cubic = {1.0, 0.0, 0.5, 0.0};
+    lemon.cubic = {1.0, 0.0, 0.8, 0.0};
     lemon.kind = classify(lemon.cubic, 0.0);
     ASSERT_NE(lemon.kind.type, UmbilicType::star);
     on_suspect = {lemon};
