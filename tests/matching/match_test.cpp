@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <umbilic/matching/match.h>
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include <umbilic/core/errors.h>
+#include <support/surfaces.h>
+
+namespace umbilic {
+namespace {
+
+using support::model_of;
+using support::random_similarity;
+using support::rough_bicubic;
+using support::smooth_bicubic;
+using support::transformed;
+
+/// Greatest displacement, relative to the original's size, between two poses of points around the suspect.
+double pose_error(const SimilarityTransform& found, const SimilarityTransform& truth, const Model& original) {
+    const Vector3 centre = original.box.center();
+    const double size = original.size();
+    double greatest = 0.0;
+    for (const Vector3& offset : {Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(0, 1, 0), Vector3(0, 0, 1)}) {
+        const Vector3 p = truth.inverse().apply(centre + 0.5 * size * offset);
+        greatest = std::max(greatest, (found.apply(p) - truth.apply(p)).norm());
+    }
+    return greatest / size;
+}
+
+/// Model of one surface trimmed to a rectangle of its domain (fractions of its sides).
+Model cut_out(const NurbsSurface& surface, double u0, double u1, double v0, double v1) {
+    const ParameterBox domain = surface.domain();
+    const auto at = [&](double u, double v) {
+        return Vector2(domain.u.low + u * domain.u.length(), domain.v.low + v * domain.v.length());
+    };
+    const std::vector<Vector2> corners = {at(u0, v0), at(u1, v0), at(u1, v1), at(u0, v1)};
+    TrimmingLoop loop;
+    for (int i = 0; i < 4; ++i)
+        loop.push_back({.curve = NurbsCurve2(KnotVector::bezier(1), {corners[i], corners[(i + 1) % 4]})});
+    Model model = model_of({surface});
+    Face& face = model.faces.front();
+    face.region = TrimmingRegion(domain, {loop}, {}, {});
+    // Midpoint rule: only the weights of samples depend on it.
+    constexpr int parts = 200;
+    face.area = 0.0;
+    model.box = {};
+    for (int i = 0; i < parts; ++i)
+        for (int j = 0; j < parts; ++j) {
+            const Vector2 p = at(u0 + (u1 - u0) * (i + 0.5) / parts, v0 + (v1 - v0) * (j + 0.5) / parts);
+            const SurfaceDerivatives d = surface.derivatives(p.x(), p.y(), 1);
+            face.area += d.r_u().cross(d.r_v()).norm() * (u1 - u0) * (v1 - v0) * domain.u.length() * domain.v.length() /
+                         (parts * parts);
+            model.box.add(d.r());
+        }
+    model.area = face.area;
+    return model;
+}
+
+FeatureOptions quick() {
+    FeatureOptions options;
+    options.samples.count = 1500;
+    options.umbilics.certificate = false;
+    return options;
+}
+
+Alignment match_models(const Model& original, const Model& suspect, const MatchOptions& options = {}) {
+    return match(prepare(original, quick()), prepare(suspect, quick()), options);
+}
+
+TEST(Match, FindsMovedScaledAndMirroredCopies) {
+    const double scales[] = {0.05, 0.3, 1.0, 2.54, 20.0};
+    for (int i = 0; i < 5; ++i)
+        for (const bool mirrored : {false, true}) {
+            const NurbsSurface surface = i % 2 == 0 ? smooth_bicubic(8 + 3 * i, 40 + i) : rough_bicubic(8 + 3 * i, i);
+            const SimilarityTransform truth = random_similarity(100 + i, scales[i], mirrored);
+            const Model original = model_of({surface});
+            const Model suspect = model_of({transformed(surface, truth.inverse())});
+            const Alignment alignment = match_models(original, suspect);
+            SCOPED_TRACE(alignment.why);
+            ASSERT_EQ(alignment.status, AlignmentStatus::found);
+            EXPECT_EQ(alignment.scope, MatchScope::global);
+            EXPECT_EQ(alignment.original_suspect.mirrored, mirrored);
+            EXPECT_LT(pose_error(alignment.original_suspect, truth, original), 1e-9);
+            EXPECT_NEAR(alignment.original_suspect.scale / truth.scale, 1.0, 1e-9);
+            EXPECT_GT(alignment.suspect_coverage, 0.99);
+            EXPECT_GT(alignment.original_coverage, 0.99);
+            EXPECT_TRUE(alignment.symmetries.empty());
+        }
+}
+
+TEST(Match, ParametrisationDoesNotMatter) {
+    const NurbsSurface surface = smooth_bicubic(10, 3);
+    const SimilarityTransform truth = random_similarity(5, 0.8, false);
+    const NurbsSurface moved = transformed(surface, truth.inverse());
+    const Model original = model_of({surface});
+    for (const NurbsSurface& variant : {moved.swapped(), moved.u_reversed(), moved.swapped().u_reversed()}) {
+        const Alignment alignment = match_models(original, model_of({variant}));
+        SCOPED_TRACE(alignment.why);
+        ASSERT_EQ(alignment.status, AlignmentStatus::found);
+        EXPECT_FALSE(alignment.original_suspect.mirrored);
+        EXPECT_LT(pose_error(alignment.original_suspect, truth, original), 1e-9);
+    }
+}
+
+TEST(Match, MirrorImagesOnlyWhereAllowed) {
+    const NurbsSurface surface = smooth_bicubic(10, 3);
+    const SimilarityTransform truth = random_similarity(5, 0.8, true);
+    const Model original = model_of({surface}), suspect = model_of({transformed(surface, truth.inverse())});
+    EXPECT_TRUE(match_models(original, suspect).original_suspect.mirrored);
+    EXPECT_FALSE(match_models(original, suspect, {.mirror = MirrorChoice::never}).found());
+}
+
+TEST(Match, FindsAPieceOnItsOriginal) {
+    const NurbsSurface surface = rough_bicubic(14, 6);
+    const SimilarityTransform truth = random_similarity(9, 3.0, false);
+    const Model original = model_of({surface});
+    const Model piece = cut_out(transformed(surface, truth.inverse()), 0.3, 0.75, 0.2, 0.7);
+    const Alignment alignment = match_models(original, piece);
+    SCOPED_TRACE(alignment.why);
+    ASSERT_EQ(alignment.status, AlignmentStatus::found);
+    EXPECT_EQ(alignment.scope, MatchScope::partial);
+    EXPECT_LT(pose_error(alignment.original_suspect, truth, original), 1e-9);
+    EXPECT_GT(alignment.suspect_coverage, 0.99);
+    EXPECT_NEAR(alignment.original_coverage, 0.45 * 0.5, 0.05);
+}
+
+TEST(Match, FindsTheOriginalInsideALargerSuspect) {
+    const NurbsSurface surface = rough_bicubic(14, 6);
+    const SimilarityTransform truth = random_similarity(9, 0.4, false);
+    const Model original = cut_out(surface, 0.1, 0.5, 0.3, 0.8);
+    const Model suspect = model_of({transformed(surface, truth.inverse())});
+    const Alignment alignment = match_models(original, suspect);
+    SCOPED_TRACE(alignment.why);
+    ASSERT_EQ(alignment.status, AlignmentStatus::found);
+    EXPECT_LT(pose_error(alignment.original_suspect, truth, original), 1e-9);
+    EXPECT_GT(alignment.original_coverage, 0.99);
+}
+
+TEST(Match, FindsACopiedPieceBesideForeignMaterial) {
+    const NurbsSurface surface = rough_bicubic(12, 6);
+    const SimilarityTransform truth = random_similarity(9, 1.7, false);
+    SimilarityTransform beside;
+    beside.translation = Vector3(1.5, 0.4, 0.3);
+    const Model original = model_of({surface, transformed(rough_bicubic(9, 50), beside)});
+    const NurbsSurface foreign = transformed(transformed(rough_bicubic(12, 77), beside), truth.inverse());
+    const Model suspect = model_of({transformed(surface, truth.inverse()), foreign});
+    const Alignment alignment = match_models(original, suspect);
+    SCOPED_TRACE(alignment.why);
+    ASSERT_EQ(alignment.status, AlignmentStatus::found);
+    EXPECT_EQ(alignment.scope, MatchScope::partial);
+    EXPECT_LT(pose_error(alignment.original_suspect, truth, original), 1e-9);
+    EXPECT_NEAR(alignment.suspect_coverage, 0.5, 0.05);
+}
+
+TEST(Match, IndependentDesignsAreNotFound) {
+    for (unsigned seed = 0; seed < 8; ++seed) {
+        const NurbsSurface a = seed % 2 == 0 ? smooth_bicubic(10, seed) : rough_bicubic(10, seed);
+        const NurbsSurface b = seed % 2 == 0 ? smooth_bicubic(10, seed + 500) : rough_bicubic(10, seed + 500);
+        const Alignment alignment =
+            match_models(model_of({a}), model_of({transformed(b, random_similarity(seed, 1.3, false))}));
+        SCOPED_TRACE(alignment.why);
+        EXPECT_EQ(alignment.status, AlignmentStatus::not_found);
+        EXPECT_FALSE(alignment.why.empty());
+    }
+}
+
+TEST(Match, MirrorSymmetricShapeFitsInBothHands) {
+    // Even in x: the reflection x -> -x maps the surface onto itself.
+    const NurbsSurface surface = support::graph_patch(4, 3, [](double x, double y) {
+        return 0.3 * x * x + 0.15 * y * y - 0.25 * x * x * y + 0.2 * y * y * y - 0.1 * x * x * x * x;
+    });
+    const SimilarityTransform truth = random_similarity(12, 2.0, false);
+    const Alignment alignment = match_models(model_of({surface}), model_of({transformed(surface, truth.inverse())}));
+    SCOPED_TRACE(alignment.why);
+    ASSERT_EQ(alignment.status, AlignmentStatus::found);
+    EXPECT_FALSE(alignment.original_suspect.mirrored);
+    EXPECT_LT(pose_error(alignment.original_suspect, truth, model_of({surface})), 1e-9);
+    ASSERT_EQ(alignment.symmetries.size(), 1u);
+    EXPECT_TRUE(alignment.symmetries.front().mirrored);
+    const SimilarityTransform reflection = compose(alignment.symmetries.front(), alignment.original_suspect.inverse());
+    EXPECT_LT((reflection.orthogonal() - Matrix3(Vector3(-1, 1, 1).asDiagonal())).norm(), 1e-9);
+}
+
+TEST(Match, EveryCopyInsideTheOriginalIsListed) {
+    const NurbsSurface surface = rough_bicubic(10, 21);
+    const SimilarityTransform second = random_similarity(31, 1.0, false, 3.0), place = random_similarity(8, 0.6, false);
+    const Model original = model_of({surface, transformed(surface, second)});
+    const Model suspect = model_of({transformed(surface, place.inverse())});
+    const Alignment alignment = match_models(original, suspect);
+    SCOPED_TRACE(alignment.why);
+    ASSERT_EQ(alignment.status, AlignmentStatus::found);
+    ASSERT_EQ(alignment.symmetries.size(), 1u);
+    std::vector<double> errors;
+    for (const SimilarityTransform& pose : {alignment.original_suspect, alignment.symmetries.front()})
+        errors.push_back(
+            std::min(pose_error(pose, place, original), pose_error(pose, compose(second, place), original)));
+    EXPECT_LT(errors[0], 1e-9);
+    EXPECT_LT(errors[1], 1e-9);
+}
+
+TEST(Match, FixedScaleRefusesAScaledCopy) {
+    const NurbsSurface surface = smooth_bicubic(10, 3);
+    const Model original = model_of({surface});
+    const Model same = model_of({transformed(surface, random_similarity(5, 1.0, false).inverse())});
+    const Model scaled = model_of({transformed(surface, random_similarity(5, 2.0, false).inverse())});
+    const MatchOptions fixed{.scale = {ScaleChoice::Kind::fixed}};
+    const Alignment alignment = match_models(original, same, fixed);
+    ASSERT_TRUE(alignment.found()) << alignment.why;
+    EXPECT_EQ(alignment.original_suspect.scale, 1.0);
+    EXPECT_FALSE(match_models(original, scaled, fixed).found());
+    EXPECT_TRUE(match_models(original, scaled, {.scale = {ScaleChoice::Kind::range, 1.9, 2.1}}).found());
+    EXPECT_FALSE(match_models(original, scaled, {.scale = {ScaleChoice::Kind::range, 0.5, 1.5}}).found());
+}
+
+TEST(Match, GivenPairsAndInitialPoseAreRefined) {
+    const NurbsSurface surface = smooth_bicubic(9, 8);
+    const SimilarityTransform truth = random_similarity(6, 1.4, false);
+    const Model original = model_of({surface}), suspect = model_of({transformed(surface, truth.inverse())});
+    MatchOptions options;
+    const double rough = 0.01 * original.size();
+    int corner = 0;
+    for (const auto& [u, v] : {std::pair(0.0, 0.0), std::pair(1.0, 0.1), std::pair(0.2, 1.0), std::pair(0.9, 0.8)}) {
+        const Vector3 p = surface.value(u, v);
+        options.pairs.emplace_back(p + rough * Vector3::Unit(corner++ % 3), truth.inverse().apply(p));
+    }
+    const Alignment by_pairs = match_models(original, suspect, options);
+    ASSERT_TRUE(by_pairs.found()) << by_pairs.why;
+    EXPECT_EQ(by_pairs.method, MatchMethod::given);
+    EXPECT_LT(pose_error(by_pairs.original_suspect, truth, original), 1e-9);
+
+    MatchOptions initial;
+    initial.initial = truth;
+    initial.initial->translation += Vector3(rough, -rough, rough);
+    initial.initial->scale *= 1.02;
+    const Alignment by_initial = match_models(original, suspect, initial);
+    ASSERT_TRUE(by_initial.found()) << by_initial.why;
+    EXPECT_EQ(by_initial.method, MatchMethod::given);
+    EXPECT_LT(pose_error(by_initial.original_suspect, truth, original), 1e-9);
+
+    options.pairs.resize(2);
+    EXPECT_THROW(match_models(original, suspect, options), InvalidInput);
+}
+
+TEST(Match, APlaneIsNoEvidence) {
+    const NurbsSurface plane = support::graph_patch(1, 1, [](double, double) { return 0.0; });
+    const SimilarityTransform pose = random_similarity(2, 2.0, false);
+    const Alignment alignment = match_models(model_of({plane}), model_of({transformed(plane, pose)}));
+    SCOPED_TRACE(alignment.why);
+    EXPECT_NE(alignment.status, AlignmentStatus::found);
+    EXPECT_NE(alignment.status, AlignmentStatus::ambiguous);
+    EXPECT_FALSE(alignment.why.empty());
+}
+
+TEST(Match, SaysWhyNothingApplies) {
+    const NurbsSurface cylinder_like = support::graph_patch(3, 1, [](double x, double) { return 0.3 * x * x * x; });
+    const NurbsSurface saddle = support::graph_patch(2, 2, [](double x, double y) { return 0.3 * x * y; });
+    const Alignment alignment =
+        match_models(model_of({cylinder_like}), model_of({saddle}), {.method = MethodChoice::umbilics});
+    EXPECT_EQ(alignment.status, AlignmentStatus::not_found);
+    EXPECT_NE(alignment.why.find("umbilics"), std::string::npos) << alignment.why;
+}
+
+TEST(Match, RejectsMeaninglessOptions) {
+    const Model model = model_of({smooth_bicubic(6, 1)});
+    EXPECT_THROW(match_models(model, model, {.scale = {ScaleChoice::Kind::range, 2.0, 1.0}}), InvalidInput);
+    EXPECT_THROW(match_models(model, model, {.tolerance = -1.0}), InvalidInput);
+    MatchOptions options;
+    options.initial = SimilarityTransform{.scale = 0.0};
+    EXPECT_THROW(match_models(model, model, options), InvalidInput);
+    EXPECT_THROW(prepare(Model{}), InvalidInput);
+}
+
+TEST(Match, StopsWhenCancelled) {
+    const Model model = model_of({smooth_bicubic(8, 1)});
+    const PreparedModel prepared = prepare(model, quick());
+    int reports = 0;
+    const Progress progress([&](double fraction, std::string_view) {
+        EXPECT_GE(fraction, 0.0);
+        EXPECT_LE(fraction, 1.0);
+        return ++reports < 3;
+    });
+    EXPECT_THROW(match(prepared, prepared, {}, progress), Cancelled);
+}
+
+TEST(Match, GivesTheSameResultTwice) {
+    const NurbsSurface surface = rough_bicubic(10, 2);
+    const Model original = model_of({surface});
+    const Model suspect = model_of({transformed(surface, random_similarity(3, 0.5, true))});
+    const PreparedModel a = prepare(original, quick()), b = prepare(suspect, quick());
+    const Alignment first = match(a, b), second = match(a, b);
+    EXPECT_EQ(first.why, second.why);
+    EXPECT_EQ(first.original_suspect.scale, second.original_suspect.scale);
+    EXPECT_EQ(first.original_suspect.rotation, second.original_suspect.rotation);
+    EXPECT_EQ(first.original_suspect.translation, second.original_suspect.translation);
+    ASSERT_EQ(first.runners_up.size(), second.runners_up.size());
+    for (std::size_t i = 0; i < first.runners_up.size(); ++i)
+        EXPECT_EQ(first.runners_up[i].score, second.runners_up[i].score);
+}
+
+}  // namespace
+}  // namespace umbilic
