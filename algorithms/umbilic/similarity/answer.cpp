@@ -90,9 +90,12 @@ AnswerClass class_of_whole_copy(const PoseChanges& changes, bool exact) {
 Answer no_pose(const Alignment& alignment) {
     // Without a single hypothesis nothing was compared, so nothing can be said of the shapes.
     const bool tried = alignment.method != MatchMethod::none || !alignment.runners_up.empty();
-    return {AnswerClass::different, (tried ? "different: no position of the suspect fits the original ("
-                                           : "nothing could be decided: no method applies to these models (") +
-                                        alignment.why + ")"};
+    std::string why = alignment.why;
+    while (!why.empty() && why.back() == '.') why.pop_back();
+    return {AnswerClass::different,
+            (tried ? "different: no position of the suspect fits the original ("
+                   : "nothing could be decided: no method proposes a position of the suspect (") +
+                why + ")"};
 }
 
 std::string caveat(const Alignment& alignment) {
