@@ -21,6 +21,8 @@ std::string word(MethodChoice choice) {
             return "umbilics";
         case MethodChoice::moments:
             return "moments";
+        case MethodChoice::curvature:
+            return "curvature";
     }
     return "auto";
 }

@@ -247,6 +247,23 @@ TEST(Match, GivenPairsAndInitialPoseAreRefined) {
     EXPECT_THROW(match_models(original, suspect, options), InvalidInput);
 }
 
+TEST(Match, SurfacesWithoutUmbilicsMatchByTheirCurvature) {
+    // Gaussian curvature is negative everywhere: no umbilic. The suspect is a piece.
+    const NurbsSurface surface = support::graph_patch(4, 4, [](double x, double y) {
+        return 0.5 * x * y + 0.05 * x * x * x - 0.08 * y * y * y + 0.04 * x * x * y + 0.03 * x * x * x * y;
+    });
+    const SimilarityTransform truth = random_similarity(14, 0.2, true);
+    const Model original = model_of({surface});
+    const Model piece = cut_out(transformed(surface, truth.inverse()), 0.15, 0.8, 0.3, 0.9);
+    for (const MethodChoice method : {MethodChoice::automatic, MethodChoice::curvature}) {
+        const Alignment alignment = match_models(original, piece, {.method = method});
+        SCOPED_TRACE(alignment.why);
+        ASSERT_EQ(alignment.status, AlignmentStatus::found);
+        EXPECT_EQ(alignment.method, MatchMethod::curvature);
+        EXPECT_LT(pose_error(alignment.original_suspect, truth, original), 1e-9);
+    }
+}
+
 TEST(Match, APlaneIsNoEvidence) {
     const NurbsSurface plane = support::graph_patch(1, 1, [](double, double) { return 0.0; });
     const SimilarityTransform pose = random_similarity(2, 2.0, false);

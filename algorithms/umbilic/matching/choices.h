@@ -3,7 +3,8 @@
 
 namespace umbilic {
 
-enum class MethodChoice { automatic, umbilics, moments };
+/// automatic: given pairs or pose, umbilics, moments, curvature, in this order, until a pose convinces.
+enum class MethodChoice { automatic, umbilics, moments, curvature };
 enum class MirrorChoice { automatic, never };
 enum class ScopeChoice { automatic, global, partial };
 

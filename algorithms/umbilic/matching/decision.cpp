@@ -180,7 +180,7 @@ Fit judge(const ScoredPose& pose, const PoseSearch& search) {
 bool settled(const PoseSearch& search) {
     if (search.poses().empty()) return false;
     const Fit fit = judge(search.poses().front(), search);
-    return fit.level == FitLevel::found && fit.exact && std::max(fit.suspect.share, fit.original.share) >= whole;
+    return fit.level == FitLevel::found && (fit.exact || std::max(fit.suspect.share, fit.original.share) >= whole);
 }
 
 Alignment decide_alignment(PoseSearch& search, const std::string& tried, const Progress& progress) {

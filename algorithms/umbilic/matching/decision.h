@@ -31,7 +31,7 @@ struct Fit {
 /// tenth of the length within the tolerance, unless the models agree as wholes, which then turn about their own axis.
 Fit judge(const ScoredPose& pose, const PoseSearch& search);
 
-/// True if a search need not go on: the best pose is found, exact, and one model lies on the other completely.
+/// True if a search need not go on: the best pose is found, and it is exact or one model lies on the other completely.
 bool settled(const PoseSearch& search);
 
 /// Best pose, the others, the symmetries among them and the status. Poses that fit equally well as the best one are

@@ -6,6 +6,7 @@
 
 #include <umbilic/core/errors.h>
 #include <umbilic/matching/by_moments.h>
+#include <umbilic/matching/by_principal_frame.h>
 #include <umbilic/matching/by_umbilics.h>
 #include <umbilic/matching/decision.h>
 #include <umbilic/matching/horn.h>
@@ -15,11 +16,14 @@ namespace umbilic {
 
 namespace {
 
-/// Poses of one method that are refined.
-constexpr int refined_poses = 16;
+/// Poses of one method that are refined. Moments: a cube has 48 symmetries.
+constexpr int refined_poses = 16, refined_moments = 48;
 /// How far the hypotheses of a method may be off, as a part of the suspect's length: one umbilic of a re-approximated
-/// copy turns by a few degrees, sampled rotations are up to 15 degrees off, given pairs and poses may be rough.
-constexpr double umbilics_error = 0.08, moments_error = 0.25, given_error = 0.25;
+/// copy turns by a few degrees, sampled rotations are up to 15 degrees off, given pairs and poses may be rough, a
+/// principal frame comes from the nearest sample.
+constexpr double umbilics_error = 0.08, moments_error = 0.25, given_error = 0.25, curvature_error = 0.15;
+/// Samples among which principal frames are looked up, and from which those to look up are chosen.
+constexpr int table_samples = 20000, seed_samples = 4000;
 
 void check(const MatchOptions& options) {
     if (options.tolerance && !(std::isfinite(*options.tolerance) && *options.tolerance > 0.0))
@@ -53,6 +57,45 @@ Proposals given_poses(const MatchOptions& options) {
     return result;
 }
 
+ScaleChoice inverted(const ScaleChoice& scale) {
+    if (scale.kind != ScaleChoice::Kind::range) return scale;
+    return {scale.kind, 1.0 / scale.high, 1.0 / scale.low};
+}
+
+/// Poses from single points with their principal frames, seeds on the suspect or (`swapped`) on the original, for a
+/// suspect of which only a part comes from the original.
+class CurvatureProposals {
+public:
+    CurvatureProposals(const PreparedModel& original, const PreparedModel& suspect, const MatchOptions& options,
+                       const Progress& progress)
+        : original_(original.model, table_samples, progress.part(0.0, 0.5)),
+          suspect_(suspect.model, table_samples, progress.part(0.5, 0.8)),
+          original_seeds_(original.model, seed_samples, progress.part(0.8, 0.9)),
+          suspect_seeds_(suspect.model, seed_samples, progress.part(0.9, 1.0)),
+          options_{.flip_normals = !(original.model.oriented() && suspect.model.oriented()),
+                   .scale = options.scale,
+                   .mirror = options.mirror} {}
+
+    Proposals propose(bool third_order, bool swapped, const Progress& progress) const {
+        PrincipalFrameOptions options = options_;
+        options.third_order = third_order;
+        if (swapped) options.scale = inverted(options.scale);
+        Proposals result{.why = std::string("curvature: ") + (third_order ? "third order" : "second order") +
+                                (swapped ? " from the original's side" : "")};
+        for (const PoseCandidate& pose : swapped
+                                             ? propose_by_principal_frame(suspect_, original_seeds_, options, progress)
+                                             : propose_by_principal_frame(original_, suspect_seeds_, options, progress))
+            result.poses.push_back(
+                {swapped ? pose.original_suspect.inverse() : pose.original_suspect, MatchMethod::curvature});
+        if (result.poses.empty()) result.why += " proposed no pose";
+        return result;
+    }
+
+private:
+    PrincipalFrameTable original_, suspect_, original_seeds_, suspect_seeds_;
+    PrincipalFrameOptions options_;
+};
+
 }  // namespace
 
 Alignment match(const PreparedModel& original, const PreparedModel& suspect, const MatchOptions& options,
@@ -60,22 +103,37 @@ Alignment match(const PreparedModel& original, const PreparedModel& suspect, con
     check(options);
     PoseSearch search(original, suspect, options);
     std::string tried;
-    const auto consider = [&](const Proposals& proposals, double error, const Progress& part) {
+    const auto consider = [&](const Proposals& proposals, int keep, double error, const Progress& part) {
         tried += (tried.empty() ? "" : "; ") + proposals.why;
-        search.consider(proposals, refined_poses, error, part);
+        search.consider(proposals, keep, error, part);
     };
 
-    if (options.initial || !options.pairs.empty()) consider(given_poses(options), given_error, progress.part(0.0, 0.1));
-    const bool automatic = options.method == MethodChoice::automatic;
-    if (!settled(search) && (automatic || options.method == MethodChoice::umbilics))
+    if (options.initial || !options.pairs.empty())
+        consider(given_poses(options), refined_poses, given_error, progress.part(0.0, 0.1));
+    const auto wanted = [&](MethodChoice method) {
+        return (options.method == MethodChoice::automatic || options.method == method) && !settled(search);
+    };
+    if (wanted(MethodChoice::umbilics))
         consider(poses_by_umbilics(original, suspect, options.scale, options.mirror,
                                    options.umbilic_invariant_tolerance, progress.part(0.1, 0.3)),
-                 umbilics_error, progress.part(0.3, 0.6));
+                 refined_poses, umbilics_error, progress.part(0.3, 0.5));
     // Moments belong to wholes: they say nothing of a piece.
-    const bool wholes = options.scope != ScopeChoice::partial || options.method == MethodChoice::moments;
-    if (!settled(search) && wholes && (automatic || options.method == MethodChoice::moments))
-        consider(poses_by_moments(original, suspect, options.scale, options.mirror), moments_error,
-                 progress.part(0.6, 0.8));
+    if (wanted(MethodChoice::moments) &&
+        (options.scope != ScopeChoice::partial || options.method == MethodChoice::moments))
+        consider(poses_by_moments(original, suspect, options.scale, options.mirror), refined_moments, moments_error,
+                 progress.part(0.5, 0.6));
+    if (wanted(MethodChoice::curvature)) {
+        const CurvatureProposals proposals(original, suspect, options, progress.part(0.6, 0.7));
+        double fraction = 0.7;
+        for (const bool third_order : {true, false})
+            for (const bool swapped : {false, true}) {
+                const Progress part = progress.part(fraction, fraction + 0.05);
+                fraction += 0.05;
+                if (!settled(search))
+                    consider(proposals.propose(third_order, swapped, part.part(0.0, 0.5)), refined_poses,
+                             curvature_error, part.part(0.5, 1.0));
+            }
+    }
     progress.report(0.9, "comparing poses");
     Alignment alignment = decide_alignment(search, tried, progress.part(0.9, 1.0));
     if (options.scope == ScopeChoice::global && alignment.status == AlignmentStatus::found &&

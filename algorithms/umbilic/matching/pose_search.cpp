@@ -23,6 +23,8 @@ constexpr int refining_points = 400;
 constexpr std::size_t batch = 64;
 /// The larger model is the ground if it is longer by this factor; otherwise the original is.
 constexpr double larger = 1.5;
+/// A refined pose on which fewer of the points than this came to lie is dropped.
+constexpr double hopeless_share = 0.02;
 /// Models whose lengths differ by more than this factor after scaling are not compared: samples would be too sparse.
 constexpr double greatest_length_ratio = 50.0;
 
@@ -111,6 +113,7 @@ void PoseSearch::consider(const Proposals& proposals, int keep, double start_cut
     for (std::size_t i = 0; i < chosen.size(); ++i) {
         progress.report(0.5 + 0.5 * i / chosen.size(), "refining poses");
         ScoredPose pose = refined(chosen[i], original_points, suspect_points, start_cutoff, progress);
+        if (pose.refinement.share < hopeless_share) continue;
         const auto same = std::find_if(poses_.begin(), poses_.end(), [&](const ScoredPose& other) {
             return distance_.relative(pose.hypothesis.original_suspect, other.hypothesis.original_suspect) < same_pose;
         });
