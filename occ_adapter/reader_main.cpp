@@ -177,10 +177,13 @@ std::string run(const std::vector<std::string>& words) {
     throw InvalidInput("umbilic_reader is started by Umbilic only");
 }
 
-/// The parent puts the path before the message itself.
-std::string without_path(const std::string& message, const std::vector<std::string>& words) {
+/// One line; the caller puts the path before it itself.
+std::string message_of(const std::string& text, const std::vector<std::string>& words) {
     const std::string path = words.size() > 2 ? words[2] + ": " : "";
-    return !path.empty() && message.starts_with(path) ? message.substr(path.size()) : message;
+    std::istringstream in(!path.empty() && text.starts_with(path) ? text.substr(path.size()) : text);
+    std::string result, word;
+    while (in >> word) result += (result.empty() ? "" : " ") + word;
+    return result;
 }
 
 }  // namespace
@@ -197,23 +200,27 @@ int main(int argc, char** argv) {
         // Destructors of a kernel that has read a malformed file may crash: the result is out, so leave them.
         ::_exit(EXIT_SUCCESS);
     } catch (const InvalidInput& error) {
-        send(reader_frame::invalid_input, without_path(error.what(), words));
+        send(reader_frame::invalid_input, message_of(error.what(), words));
     } catch (const Unsupported& error) {
-        send(reader_frame::unsupported, without_path(error.what(), words));
+        send(reader_frame::unsupported, message_of(error.what(), words));
     } catch (const Error& error) {
-        send(reader_frame::numeric_failure, without_path(error.what(), words));
+        send(reader_frame::numeric_failure, message_of(error.what(), words));
     } catch (const Standard_OutOfMemory&) {
         out_of_memory();
     } catch (const std::bad_alloc&) {
         out_of_memory();
     } catch (const Standard_Failure& failure) {
         const char* text = failure.GetMessageString();
-        send(reader_frame::invalid_input, std::string("OpenCASCADE cannot read it (") + failure.DynamicType()->Name() +
-                                              (text && *text ? std::string(": ") + text : "") +
-                                              ") — open it in the system that wrote it and export again");
+        const std::string why =
+            std::string(failure.DynamicType()->Name()) + (text && *text ? ": " : "") + (text ? text : "");
+        send(reader_frame::invalid_input,
+             message_of("OpenCASCADE cannot read it (" + why +
+                            ") — it is malformed: open it in the system that wrote it and export again",
+                        words));
     } catch (const std::exception& error) {
-        send(reader_frame::invalid_input, std::string("cannot be read (") + error.what() +
-                                              ") — open it in the system that wrote it and export again");
+        send(reader_frame::invalid_input, message_of("cannot be read (" + std::string(error.what()) +
+                                                         ") — open it in the system that wrote it and export again",
+                                                     words));
     }
     ::_exit(EXIT_FAILURE);
 }
