@@ -19,6 +19,11 @@ struct ScaleChoice {
         const double low_end = kind == Kind::fixed ? 1.0 : low, high_end = kind == Kind::fixed ? 1.0 : high;
         return kind == Kind::automatic || (low_end <= scale * slack && scale <= high_end * slack);
     }
+    /// The same of the inverse transform.
+    ScaleChoice inverse() const {
+        if (kind != Kind::range) return *this;
+        return {kind, 1.0 / high, 1.0 / low};
+    }
     /// The nearest allowed scale.
     double clamp(double scale) const {
         if (kind == Kind::automatic) return scale;

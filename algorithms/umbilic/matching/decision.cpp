@@ -186,7 +186,7 @@ bool settled(const PoseSearch& search) {
 Alignment decide_alignment(PoseSearch& search, const std::string& tried, const Progress& progress) {
     Alignment alignment;
     if (search.poses().empty()) {
-        alignment.why = "No method proposes a pose: " + tried + ".";
+        alignment.why = "No pose lays enough of one model on the other to be refined: " + tried + ".";
         return alignment;
     }
     search.polish(0, progress);

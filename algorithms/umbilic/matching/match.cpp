@@ -57,11 +57,6 @@ Proposals given_poses(const MatchOptions& options) {
     return result;
 }
 
-ScaleChoice inverted(const ScaleChoice& scale) {
-    if (scale.kind != ScaleChoice::Kind::range) return scale;
-    return {scale.kind, 1.0 / scale.high, 1.0 / scale.low};
-}
-
 /// Poses from single points with their principal frames, seeds on the suspect or (`swapped`) on the original, for a
 /// suspect of which only a part comes from the original.
 class CurvatureProposals {
@@ -79,7 +74,7 @@ public:
     Proposals propose(bool third_order, bool swapped, const Progress& progress) const {
         PrincipalFrameOptions options = options_;
         options.third_order = third_order;
-        if (swapped) options.scale = inverted(options.scale);
+        if (swapped) options.scale = options.scale.inverse();
         Proposals result{.why = std::string("curvature: ") + (third_order ? "third order" : "second order") +
                                 (swapped ? " from the original's side" : "")};
         for (const PoseCandidate& pose : swapped

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 
 #include <oneapi/tbb/parallel_for.h>
 
@@ -18,13 +19,18 @@ constexpr double coarse_tolerance = 0.05;
 /// Samples that judge an unrefined hypothesis, and points that refine it.
 constexpr int quick_samples = 48;
 constexpr int refining_points = 400;
+/// A refinement starts with the first of them, which suffice to come close.
+constexpr std::size_t approaching_points = 100;
+constexpr int approaching_steps = 20;
+/// Cut-off from which the refinement goes on with all points, relative to the length.
+constexpr double near_cutoff = 5e-3;
 /// Hypotheses scored between two updates of the score that gives up early. Fixed, so that results do not depend on
 /// threads.
 constexpr std::size_t batch = 64;
 /// The larger model is the ground if it is longer by this factor; otherwise the original is.
 constexpr double larger = 1.5;
 /// A refined pose on which fewer of the points than this came to lie is dropped.
-constexpr double hopeless_share = 0.02;
+constexpr double hopeless_share = 0.05;
 /// Models whose lengths differ by more than this factor after scaling are not compared: samples would be too sparse.
 constexpr double greatest_length_ratio = 50.0;
 
@@ -130,7 +136,7 @@ void PoseSearch::consider(const Proposals& proposals, int keep, double start_cut
 
 void PoseSearch::polish(std::size_t index, const Progress& progress) {
     ScoredPose better = refined(poses_[index].hypothesis, all_points(original_.model.features.samples),
-                                all_points(suspect_.model.features.samples), FitTolerance::resembling, progress);
+                                all_points(suspect_.model.features.samples), near_cutoff, progress);
     if (better.rank >= poses_[index].rank) poses_[index] = std::move(better);
 }
 
@@ -139,16 +145,22 @@ ScoredPose PoseSearch::refined(const PoseHypothesis& hypothesis, const std::vect
                                const Progress& progress) const {
     ScoredPose result{.hypothesis = hypothesis};
     SimilarityTransform& pose = result.hypothesis.original_suspect;
-    RefineOptions options{.scale = options_.scale, .start_cutoff = start_cutoff};
-    if (suspect_is_larger(pose.scale)) {
-        if (options.scale.kind == ScaleChoice::Kind::range)
-            options.scale = {ScaleChoice::Kind::range, 1.0 / options_.scale.high, 1.0 / options_.scale.low};
-        result.refinement = refine(suspect_, original_points, pose.inverse(), options, progress);
-        pose = result.refinement.original_suspect.inverse();
-    } else {
-        result.refinement = refine(original_, suspect_points, pose, options, progress);
-        pose = result.refinement.original_suspect;
+    const bool larger_suspect = suspect_is_larger(pose.scale);
+    const Ground& ground = larger_suspect ? suspect_ : original_;
+    const std::span<const WeightedPoint> points(larger_suspect ? original_points : suspect_points);
+    RefineOptions options{.scale = larger_suspect ? options_.scale.inverse() : options_.scale,
+                          .start_cutoff = start_cutoff};
+    SimilarityTransform ground_points = larger_suspect ? pose.inverse() : pose;
+    if (start_cutoff > near_cutoff && points.size() > approaching_points) {
+        options.maximum_steps = approaching_steps;
+        result.refinement = refine(ground, points.first(approaching_points), ground_points, options, progress);
+        if (result.refinement.share < hopeless_share) return result;
+        ground_points = result.refinement.original_suspect;
+        options = {.scale = options.scale, .start_cutoff = near_cutoff};
     }
+    result.refinement = refine(ground, points, ground_points, options, progress);
+    if (result.refinement.share < hopeless_share) return result;
+    pose = larger_suspect ? result.refinement.original_suspect.inverse() : result.refinement.original_suspect;
 
     result.length = length(pose.scale);
     const double stated = stated_tolerance(pose.scale);
