@@ -88,7 +88,7 @@ Interval TensorPolynomial::coefficient_hull() const {
         }
     }
     const double conversion = gamma_bound(u_degree + v_degree + 4) * magnitude;
-    return inflated({low, high}, (bound.rounding + conversion) * bound_slack);
+    return inflated({low, high}, (bound.input + conversion) * bound_slack);
 }
 
 CoefficientBound TensorPolynomial::bernstein_coefficients(std::span<double> result) const {

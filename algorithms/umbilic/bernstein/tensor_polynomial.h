@@ -31,7 +31,8 @@ struct TensorPolynomial {
     void set_zero(int m, int n);
     /// Sets `magnitude` from the coefficients.
     void measure();
-    /// Interval that holds every exact Bernstein coefficient b_ij, hence every value on [0, 1]^2.
+    /// Interval that holds every Bernstein coefficient b_ij, hence every value on [0, 1]^2, for all inputs within their
+    /// rounding.
     Interval coefficient_hull() const;
     /// The coefficients b_ij, row-major; `result` has (u_degree + 1) * (v_degree + 1) entries. Their distance from the
     /// exact ones is within what is returned.

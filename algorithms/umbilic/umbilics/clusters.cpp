@@ -100,20 +100,44 @@ std::vector<Vector3> chained(std::vector<Vector3> points) {
     return points;
 }
 
-double area(const NurbsSurface& surface, const ParameterBox& box) {
-    // Gauss-Legendre rule with four nodes per direction.
+/// Area of a box within one span in each direction.
+double span_area(const NurbsSurface& surface, const ParameterBox& box) {
+    // Gauss-Legendre rule with four nodes per direction, on parts of the box if the integrand is not a polynomial.
     constexpr std::array<double, 4> node = {-0.861136311594052575, -0.339981043584856265, 0.339981043584856265,
                                             0.861136311594052575};
     constexpr std::array<double, 4> weight = {0.347854845137453857, 0.652145154862546143, 0.652145154862546143,
                                               0.347854845137453857};
+    const int parts = surface.rational() ? 4 : 1;
+    const double du = box.u.length() / parts, dv = box.v.length() / parts;
     double sum = 0.0;
-    for (int i = 0; i < 4; ++i)
-        for (int j = 0; j < 4; ++j) {
-            const SurfaceDerivatives d = surface.derivatives(box.u.middle() + 0.5 * node[i] * box.u.length(),
-                                                             box.v.middle() + 0.5 * node[j] * box.v.length(), 1);
-            sum += weight[i] * weight[j] * d.r_u().cross(d.r_v()).norm();
+    for (int a = 0; a < parts; ++a)
+        for (int b = 0; b < parts; ++b)
+            for (int i = 0; i < 4; ++i)
+                for (int j = 0; j < 4; ++j) {
+                    const SurfaceDerivatives d = surface.derivatives(box.u.low + (a + 0.5 + 0.5 * node[i]) * du,
+                                                                     box.v.low + (b + 0.5 + 0.5 * node[j]) * dv, 1);
+                    sum += weight[i] * weight[j] * d.r_u().cross(d.r_v()).norm();
+                }
+    return 0.25 * sum * du * dv;
+}
+
+std::vector<ParameterInterval> pieces(const KnotVector& knots, const ParameterInterval& interval) {
+    std::vector<ParameterInterval> result;
+    double low = interval.low;
+    for (const double knot : knots.breaks())
+        if (low < knot && knot < interval.high) {
+            result.push_back({low, knot});
+            low = knot;
         }
-    return 0.25 * sum * box.u.length() * box.v.length();
+    result.push_back({low, interval.high});
+    return result;
+}
+
+double area(const NurbsSurface& surface, const ParameterBox& box) {
+    double sum = 0.0;
+    for (const ParameterInterval& u : pieces(surface.u_knots(), box.u))
+        for (const ParameterInterval& v : pieces(surface.v_knots(), box.v)) sum += span_area(surface, {u, v});
+    return sum;
 }
 
 std::optional<double> cluster_index(const NurbsSurface& surface, const BezierPatches& patches,

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include <Eigen/LU>
 
@@ -22,7 +24,7 @@ constexpr double zero_factor = 4.0;
 /// A preconditioner is used down to this relative determinant: near |omega| = 1 it still helps greatly.
 constexpr double least_relative_determinant = 1e-9;
 /// Above this contraction a box is split rather than proved, as the radius grows with 1 / (1 - r).
-constexpr double largest_contraction = 0.9;
+constexpr double largest_contraction = 0.75;
 /// How far outside its box a candidate is still followed, and how much more is added to the enlarged box, relative to
 /// the box.
 constexpr double reach = 0.4;
@@ -77,9 +79,10 @@ void CommonZeros::clear() {
     exhausted = false;
 }
 
-void CommonZeroSearch::set_polynomials(const TensorPolynomial& a, const TensorPolynomial& b) {
+void CommonZeroSearch::set_polynomials(const TensorPolynomial& a, const TensorPolynomial& b, Enclosure enclosure) {
     assert(a.u_degree == b.u_degree && a.v_degree == b.v_degree);
     shape_ = {a.u_degree, a.v_degree};
+    enclosure_ = std::move(enclosure);
     const int size = shape_.size();
     root_.resize(2 * size);
     const TensorPolynomial* source[2] = {&a, &b};
@@ -88,8 +91,8 @@ void CommonZeroSearch::set_polynomials(const TensorPolynomial& a, const TensorPo
         double* c = root_.data() + k * size;
         *bound[k] = source[k]->bernstein_coefficients({c, static_cast<std::size_t>(size)});
         const double largest = Array(c, size).abs().maxCoeff();
-        if (largest == 0.0) continue;
-        const double scale = std::ldexp(1.0, -std::ilogb(largest));
+        const double scale = largest > 0.0 ? std::ldexp(1.0, -std::ilogb(largest)) : 1.0;
+        scale_[k] = scale;
         for (int at = 0; at < size; ++at) c[at] *= scale;
         bound[k]->rounding *= scale;
         bound[k]->input *= scale;
@@ -332,10 +335,18 @@ CommonZeroSearch::Outcome CommonZeroSearch::isolate(const Node& node, const doub
     const Vector2 corner(node.box.u.low, node.box.v.low);
     // Rounding of the box's ends and of the change of parameters.
     const Vector2 placing = Vector2::Constant(16 * unit_roundoff);
-    const auto accept = [&](const Vector2& low, const Vector2& high, double exact, double rounded) {
+    const auto accept = [&](const Vector2& low, const Vector2& high, const Matrix2& y, double norm, double exact,
+                            double rounded) {
         const Vector2 scale = side.cwiseProduct(high - low);
         zero.at = corner + side.cwiseProduct(low) + scale.cwiseProduct(at);
         zero.radius = exact * scale + placing;
+        if (enclosure_) {
+            const std::array<Interval, 2> value = enclosure_(zero.at);
+            const Interval a = value[0] * scale_[0], b = value[1] * scale_[1];
+            const double largest = std::max((Interval(y(0, 0)) * a + Interval(y(0, 1)) * b).magnitude(),
+                                            (Interval(y(1, 0)) * a + Interval(y(1, 1)) * b).magnitude());
+            zero.radius = zero.radius.cwiseMin(largest / (1.0 - norm) * bound_slack * scale);
+        }
         zero.input_radius = rounded * scale + placing;
         zero.box = placed(node.box, low, high);
         add_zero(zero, result);
@@ -346,7 +357,8 @@ CommonZeroSearch::Outcome CommonZeroSearch::isolate(const Node& node, const doub
         const Residual there = residual(coefficients, node.bounds, preconditioner, at);
         const double rounded = radius(there, there.input, r);
         if (inside_unit(at, rounded))
-            return accept(Vector2::Zero(), Vector2::Ones(), radius(there, there.rounding, r), rounded);
+            return accept(Vector2::Zero(), Vector2::Ones(), preconditioner, r, radius(there, there.rounding, r),
+                          rounded);
         if (rounded > reach) return Outcome::split;
     }
 
@@ -377,7 +389,7 @@ CommonZeroSearch::Outcome CommonZeroSearch::isolate(const Node& node, const doub
     const double reaching = rounded + 16 * unit_roundoff;
     if ((at.array() + reaching < outside_low.array()).any() || (at.array() - reaching > outside_high.array()).any())
         return Outcome::empty;
-    return accept(low, high, radius(there, there.rounding, *norm), rounded);
+    return accept(low, high, scaled, *norm, radius(there, there.rounding, *norm), rounded);
 }
 
 void CommonZeroSearch::add_zero(const IsolatedZero& zero, CommonZeros& result) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -49,8 +50,12 @@ struct SearchLimits {
 /// section "Search"). Memory is kept from call to call.
 class CommonZeroSearch {
 public:
-    /// Takes the polynomials; they are scaled to one magnitude by powers of two.
-    void set_polynomials(const TensorPolynomial& a, const TensorPolynomial& b);
+    /// Values of both polynomials at a point, enclosed.
+    using Enclosure = std::function<std::array<Interval, 2>(const Vector2& at)>;
+
+    /// Takes the polynomials; they are scaled to one magnitude by powers of two. `enclosure`, if there is one, gives
+    /// tighter values at single points than the coefficients with their common bound; it makes the radii smaller.
+    void set_polynomials(const TensorPolynomial& a, const TensorPolynomial& b, Enclosure enclosure = {});
 
     /// Searches `part` of [0, 1]^2 and appends what it finds. Throws Cancelled.
     void search(const ParameterBox& part, const SearchLimits& limits, const Progress& progress, CommonZeros& result);
@@ -87,6 +92,8 @@ private:
     CoefficientShape shape_;
     std::vector<double> root_;  ///< coefficients of a, then of b
     Bounds root_bounds_;
+    std::array<double, 2> scale_{};
+    Enclosure enclosure_;
     std::vector<double> slots_;  ///< one pair of arrays per open node of the depth-first tree
     std::vector<Node> nodes_;
     std::vector<double> combined_, enlarged_, basis_;

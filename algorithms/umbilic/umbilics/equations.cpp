@@ -74,6 +74,7 @@ InputRounding input_rounding(const NurbsSurface& surface) {
 void UmbilicEquations::load(const BezierPatch& patch, const InputRounding& input) {
     p_ = patch.u_degree;
     q_ = patch.v_degree;
+    rational_ = patch.rational;
     const int count = (p_ + 1) * (q_ + 1);
     double position = 0.0, weight = 0.0, lightest = std::numeric_limits<double>::infinity();
     for (const Vector4& pole : patch.poles) {

@@ -45,6 +45,11 @@ public:
     const TensorPolynomial& a() const { return a_; }
     const TensorPolynomial& b() const { return b_; }
 
+    /// Values of A and B at a point of the patch, which may lie a little outside [0, 1]^2, in interval arithmetic from
+    /// the control points, taken as exact up to their extraction: far tighter than the coefficients' bounds. Needs
+    /// form_fundamental only; not for equations divided by edges.
+    std::array<Interval, 2> enclose(const Vector2& at) const;
+
     /// Restriction to an edge. Needs form_fundamental only.
     EdgeEquations edge_equations(Edge edge) const;
 
@@ -76,6 +81,7 @@ private:
                      const Vector4Polynomial& d, TensorPolynomial& result);
 
     int p_ = 0, q_ = 0;
+    bool rational_ = false;
     std::array<bool, 4> collapsed_{};
     /// Bernstein coefficients of the homogeneous components x, y, z, w.
     std::array<std::vector<double>, 4> net_;

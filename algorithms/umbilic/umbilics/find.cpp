@@ -23,6 +23,10 @@ namespace umbilic {
 
 namespace {
 
+/// Boxes are split down to this share of their patch however small the patch is: the resolution is relative to the
+/// whole domain, and a narrow patch needs some boxes of its own.
+constexpr double coarsest_patch_size = 1.0 / 16;
+
 /// Breaks across which the surface is less than twice continuously differentiable, and the two ends: borders of blocks
 /// on which the principal directions are continuous.
 std::vector<bool> block_borders(const KnotVector& knots) {
@@ -47,8 +51,10 @@ std::vector<PatchUmbilics> search_patches(const NurbsSurface& surface, const Bez
             const BezierPatch& patch = patches.patches[k];
             const std::size_t i = k / patches.v_count, j = k % patches.v_count;
             PatchTask task;
-            task.limits.u_size = options.resolution * domain.u.length() / patch.domain.u.length();
-            task.limits.v_size = options.resolution * domain.v.length() / patch.domain.v.length();
+            task.limits.u_size =
+                std::min(coarsest_patch_size, options.resolution * domain.u.length() / patch.domain.u.length());
+            task.limits.v_size =
+                std::min(coarsest_patch_size, options.resolution * domain.v.length() / patch.domain.v.length());
             task.limits.boxes = options.boxes_per_patch;
             if (options.certificate) task.edges = {u_border[i], u_border[i + 1], v_border[j], v_border[j + 1]};
             result[k] = search.search(patch, input, task, progress);

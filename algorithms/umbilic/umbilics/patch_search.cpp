@@ -37,7 +37,8 @@ PatchUmbilics PatchSearch::search(const BezierPatch& patch, const InputRounding&
     if (equations_.excluded_by_hulls()) return result;
     result.formed = true;
     equations_.form_umbilic();
-    zeros_.set_polynomials(equations_.a(), equations_.b());
+    zeros_.set_polynomials(equations_.a(), equations_.b(),
+                           [this](const Vector2& at) { return equations_.enclose(at); });
 
     ParameterBox regular{{0.0, 1.0}, {0.0, 1.0}};
     std::vector<ParameterBox> strips;

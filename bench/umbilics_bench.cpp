@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Search for umbilics on one thread. Peer of the same run: the surface's own evaluation, 1000 points with second
+// derivatives, as a measure of the machine.
+#include <algorithm>
+
+#include <benchmark/benchmark.h>
+#include <tbb/global_control.h>
+
+#include <support/surfaces.h>
+#include <umbilic/umbilics/find.h>
+
+namespace umbilic {
+namespace {
+
+constexpr unsigned seed = 7;
+
+void search(benchmark::State& state, const NurbsSurface& surface) {
+    const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+    FaceUmbilics found;
+    for (auto _ : state) {
+        found = find_umbilics(surface);
+        benchmark::DoNotOptimize(found);
+    }
+    double radius = 0.0;
+    int certified = 0;
+    for (const Umbilic& umbilic : found.umbilics) {
+        certified += umbilic.certified;
+        radius = std::max(radius, umbilic.radius);
+    }
+    std::size_t open = found.lines.size() + found.regions.size() + found.undecided.size();
+    const auto found_count = static_cast<double>(found.umbilics.size() + open);
+    state.counters["patches"] = found.statistics.patches;
+    state.counters["boxes/patch"] = static_cast<double>(found.statistics.boxes) / found.statistics.patches;
+    state.counters["umbilics"] = static_cast<double>(found.umbilics.size());
+    state.counters["certified"] = found_count > 0 ? certified / found_count : 1.0;
+    state.counters["radius"] = radius;
+}
+
+void smooth(benchmark::State& state) {
+    search(state, support::smooth_bicubic(static_cast<int>(state.range(0)), seed));
+}
+
+void rough(benchmark::State& state) {
+    search(state, support::rough_bicubic(static_cast<int>(state.range(0)), seed));
+}
+
+/// The smooth surface with weights that vary smoothly between 1 and 2.
+void rational_smooth(benchmark::State& state) {
+    const NurbsSurface base = support::smooth_bicubic(static_cast<int>(state.range(0)), seed);
+    std::vector<double> weights;
+    for (const Vector3& pole : base.poles()) weights.push_back(1.5 + 0.5 * pole.x() * (1 - 2 * pole.y()));
+    search(state, NurbsSurface(base.u_knots(), base.v_knots(), base.poles(), weights));
+}
+
+void rational_rough(benchmark::State& state) {
+    const int n = static_cast<int>(state.range(0));
+    search(state, support::random_surface(3, 3, n, n, seed, 0.05, 3.0));
+}
+
+void evaluation(benchmark::State& state) {
+    const NurbsSurface surface = support::smooth_bicubic(20, seed);
+    for (auto _ : state)
+        for (int k = 0; k < 1000; ++k)
+            benchmark::DoNotOptimize(surface.derivatives((k % 40 + 0.5) / 40, (k / 40 + 0.5) / 25, 2));
+}
+
+BENCHMARK(evaluation)->Unit(benchmark::kMillisecond);
+BENCHMARK(smooth)->Arg(8)->Arg(16)->Arg(20)->Arg(64)->Unit(benchmark::kMillisecond);
+BENCHMARK(rough)->Arg(8)->Arg(16)->Arg(20)->Arg(64)->Unit(benchmark::kMillisecond);
+BENCHMARK(rational_smooth)->Arg(20)->Unit(benchmark::kMillisecond);
+BENCHMARK(rational_rough)->Arg(20)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace umbilic

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include <tbb/global_control.h>
+
+#include <support/surfaces.h>
+#include <umbilic/core/errors.h>
+#include <umbilic/differential/fundamental_forms.h>
+#include <umbilic/umbilics/find.h>
+
+namespace umbilic {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Turns of the principal direction field along the border of the domain, followed step by step: angle of the line
+/// of greatest curvature in the parameter plane.
+double followed_winding(const NurbsSurface& surface) {
+    const ParameterBox domain = surface.domain();
+    const auto angle = [&](double u, double v) {
+        const SurfaceDerivatives d = surface.derivatives(u, v, 2);
+        const auto [E, F, G] = first_form(d);
+        const auto [L, M, N] = second_form(d);
+        // A du^2 + B du dv + C dv^2 = 0; the two lines follow each other around, so the angle of one is taken from the
+        // quadratic form's eigen-direction in a metric-free way: Q(t) = A cos^2 + B cos sin + C sin^2 vanishes.
+        const double a = E * M - F * L, b = E * N - G * L, c = F * N - G * M;
+        const double phase = std::atan2(b / 2, (a - c) / 2), mean = (a + c) / 2;
+        return 0.5 * (phase + std::acos(-mean / std::hypot(b / 2, (a - c) / 2)));
+    };
+    const int steps = 4000;
+    double total = 0.0, last = angle(domain.u.low, domain.v.low);
+    const Vector2 corners[5] = {{domain.u.low, domain.v.low},
+                                {domain.u.high, domain.v.low},
+                                {domain.u.high, domain.v.high},
+                                {domain.u.low, domain.v.high},
+                                {domain.u.low, domain.v.low}};
+    for (int side = 0; side < 4; ++side)
+        for (int k = 1; k <= steps; ++k) {
+            const Vector2 at = corners[side] + (corners[side + 1] - corners[side]) * k / steps;
+            const double next = angle(at.x(), at.y());
+            total += std::remainder(next - last, pi);
+            last = next;
+        }
+    return total / (2 * pi);
+}
+
+TEST(Certificate, WindingEqualsTheFollowedDirectionField) {
+    for (unsigned seed = 0; seed < 4; ++seed) {
+        const NurbsSurface surface = support::rough_bicubic(7, seed);
+        const FaceUmbilics found = find_umbilics(surface);
+        ASSERT_TRUE(found.certificate.complete);
+        EXPECT_NEAR(found.certificate.boundary_winding, followed_winding(surface), 1e-6);
+    }
+}
+
+TEST(Certificate, UnequalKnotSpansKeepItWhole) {
+    std::vector<double> knots = {0, 0, 0, 0, 0.01, 0.7, 0.75, 3, 3, 3, 3};
+    const NurbsSurface base = support::rough_bicubic(7, 9);
+    const NurbsSurface surface(KnotVector(3, knots), base.v_knots(), base.poles());
+    const FaceUmbilics found = find_umbilics(surface);
+    ASSERT_TRUE(found.certificate.complete) << found.certificate.why;
+    EXPECT_TRUE(*found.certificate.complete);
+}
+
+TEST(Certificate, SaysWhyItCannotBeEvaluated) {
+    const FaceUmbilics octant = find_umbilics(support::ellipsoid_octant(3, 2, 1));
+    EXPECT_FALSE(octant.certificate.complete);
+    EXPECT_FALSE(octant.certificate.why.empty());
+    // Flat star on the edge x = -1 of the patch: the umbilic of the graph is moved there.
+    const NurbsSurface edge = support::graph_patch(3, 3, [](double x, double y) {
+        const double s = x + 1;
+        return s * s * s - 3 * s * y * y;
+    });
+    const FaceUmbilics found = find_umbilics(edge);
+    ASSERT_EQ(found.umbilics.size(), 1u);
+    EXPECT_NEAR(found.umbilics[0].at.u, 0.0, 1e-12);
+    EXPECT_FALSE(found.certificate.complete);
+    EXPECT_NE(found.certificate.why.find("border"), std::string::npos);
+    UmbilicOptions options;
+    options.certificate = false;
+    EXPECT_FALSE(find_umbilics(support::table_3_1_patch(), options).certificate.complete);
+}
+
+TEST(Search, ResultDoesNotDependOnTheNumberOfThreads) {
+    const NurbsSurface surface = support::rough_bicubic(12, 5);
+    const auto run = [&](std::size_t threads) {
+        const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+        return find_umbilics(surface);
+    };
+    const FaceUmbilics one = run(1), two = run(2);
+    ASSERT_EQ(one.umbilics.size(), two.umbilics.size());
+    EXPECT_EQ(one.statistics.boxes, two.statistics.boxes);
+    EXPECT_EQ(one.statistics.formed, two.statistics.formed);
+    for (std::size_t k = 0; k < one.umbilics.size(); ++k) {
+        EXPECT_EQ(one.umbilics[k].at.u, two.umbilics[k].at.u);
+        EXPECT_EQ(one.umbilics[k].at.v, two.umbilics[k].at.v);
+        EXPECT_EQ(one.umbilics[k].radius, two.umbilics[k].radius);
+    }
+}
+
+TEST(Search, CanBeCancelled) {
+    const Progress progress([](double, std::string_view) { return false; });
+    EXPECT_THROW(find_umbilics(support::rough_bicubic(12, 5), {}, progress), Cancelled);
+    const Progress stopped;
+    stopped.cancel();
+    EXPECT_THROW(find_umbilics(support::table_3_1_patch(), {}, stopped), Cancelled);
+}
+
+TEST(Search, RefusesSenselessOptions) {
+    UmbilicOptions options;
+    options.resolution = 0.0;
+    EXPECT_THROW(find_umbilics(support::table_3_1_patch(), options), InvalidInput);
+    options = {};
+    options.boxes_per_patch = 0;
+    EXPECT_THROW(find_umbilics(support::table_3_1_patch(), options), InvalidInput);
+}
+
+TEST(Search, BudgetHoldsAndNothingIsDropped) {
+    UmbilicOptions options;
+    options.boxes_per_patch = 10;
+    const FaceUmbilics found = find_umbilics(support::table_3_1_patch(), options);
+    EXPECT_TRUE(found.statistics.budget_exhausted);
+    EXPECT_LE(found.statistics.boxes, 10);
+    const FaceUmbilics full = find_umbilics(support::table_3_1_patch());
+    for (const Umbilic& umbilic : full.umbilics) {
+        bool covered = false;
+        for (const Umbilic& other : found.umbilics) covered = covered || (other.point - umbilic.point).norm() < 1e-8;
+        const auto holds = [&](const std::vector<ParameterBox>& boxes) {
+            for (const ParameterBox& box : boxes) covered = covered || box.contains(umbilic.at.u, umbilic.at.v);
+        };
+        for (const UndecidedCluster& cluster : found.undecided) holds(cluster.boxes);
+        for (const UmbilicLine& line : found.lines) holds(line.boxes);
+        EXPECT_TRUE(covered);
+    }
+    EXPECT_FALSE(found.certificate.complete);
+}
+
+}  // namespace
+}  // namespace umbilic
