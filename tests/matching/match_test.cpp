@@ -62,6 +62,38 @@ Model cut_out(const NurbsSurface& surface, double u0, double u1, double v0, doub
     return model;
 }
 
+/// Closed box of six planar faces with its solid, moved.
+Model box(const Vector3& sides, const SimilarityTransform& pose) {
+    std::vector<NurbsSurface> faces;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double at : {0.0, 1.0}) {
+            const Vector3 base = at * sides[axis] * Vector3::Unit(axis);
+            Vector3 u = Vector3::Zero(), v = Vector3::Zero();
+            u[(axis + 1) % 3] = sides[(axis + 1) % 3];
+            v[(axis + 2) % 3] = sides[(axis + 2) % 3];
+            faces.emplace_back(KnotVector::bezier(1), KnotVector::bezier(1),
+                               std::vector<Vector3>{pose.apply(base), pose.apply(base + v), pose.apply(base + u),
+                                                    pose.apply(base + u + v)});
+        }
+    Model model = model_of(std::move(faces));
+    for (Face& face : model.faces) {
+        face.kind = SurfaceKind::plane;
+        face.solid = 0;
+        // r_u x r_v runs along the axis, which is outward at its far end; a reflection turns it.
+        face.reversed = (face.number % 2 == 1) != pose.mirrored;
+    }
+    const Vector3 square = pose.scale * pose.scale * sides.cwiseProduct(sides) / 12.0;
+    Solid solid;
+    solid.volume = std::pow(pose.scale, 3) * sides.prod();
+    solid.centroid = pose.apply(0.5 * sides);
+    solid.inertia = solid.volume * pose.orthogonal() *
+                    Vector3(square.y() + square.z(), square.x() + square.z(), square.x() + square.y()).asDiagonal() *
+                    pose.orthogonal().transpose();
+    model.solids = {solid};
+    model.volume = solid.volume;
+    return model;
+}
+
 FeatureOptions quick() {
     FeatureOptions options;
     options.samples.count = 1500;
@@ -262,6 +294,26 @@ TEST(Match, SurfacesWithoutUmbilicsMatchByTheirCurvature) {
         EXPECT_EQ(alignment.method, MatchMethod::curvature);
         EXPECT_LT(pose_error(alignment.original_suspect, truth, original), 1e-9);
     }
+}
+
+TEST(Match, BoxesMatchByTheirMomentsInAllTheirSymmetries) {
+    const SimilarityTransform identity, place = random_similarity(17, 25.4, false);
+    const Alignment moved = match_models(box({3, 2, 1}, identity), box({3, 2, 1}, place.inverse()));
+    SCOPED_TRACE(moved.why);
+    ASSERT_EQ(moved.status, AlignmentStatus::found);
+    EXPECT_EQ(moved.method, MatchMethod::moments);
+    EXPECT_EQ(moved.scope, MatchScope::global);
+    EXPECT_FALSE(moved.original_suspect.mirrored);
+    EXPECT_NEAR(moved.original_suspect.scale, 25.4, 25.4e-9);
+    EXPECT_EQ(moved.symmetries.size(), 7u);
+
+    const Alignment cube = match_models(box({2, 2, 2}, identity), box({2, 2, 2}, place.inverse()));
+    SCOPED_TRACE(cube.why);
+    ASSERT_EQ(cube.status, AlignmentStatus::found);
+    EXPECT_EQ(cube.symmetries.size(), 47u);
+
+    // Two boxes share edges and angles, never the ratio of their sides.
+    EXPECT_FALSE(match_models(box({3, 2, 1}, identity), box({3, 2.4, 1}, identity)).found());
 }
 
 TEST(Match, APlaneIsNoEvidence) {

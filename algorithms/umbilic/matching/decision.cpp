@@ -26,6 +26,8 @@ constexpr double sliding = 0.1;
 /// Two fits are equally good if the greater rms is within this factor of the smaller one (or below `negligible_rms` of
 /// the length, which is rounding in files) and the shares differ by less than `equal_share`.
 constexpr double equal_rms = 1.15, negligible_rms = 1e-7, equal_share = 0.02;
+/// Symmetries that are completed at most; bodies of revolution have no end of them.
+constexpr std::size_t most_symmetries = 120;
 /// Runners-up that are reported.
 constexpr std::size_t most_runners_up = 10;
 
@@ -128,6 +130,32 @@ bool plainer(const SimilarityTransform& a, const SimilarityTransform& b) {
     constexpr double same_angle = 1e-6;  // radians; only orders equals
     if (std::abs(angle_a - angle_b) > same_angle) return angle_a < angle_b;
     return a.translation.norm() < b.translation.norm();
+}
+
+/// Adds the poses that follow from those known: one symmetry after another is one more. Each is measured before it
+/// counts.
+void complete_symmetries(const PoseSearch& search, const SimilarityTransform& winner, const Fit& fit,
+                         std::vector<SimilarityTransform>& symmetries, const Progress& progress) {
+    std::vector<SimilarityTransform> known = {winner};
+    known.insert(known.end(), symmetries.begin(), symmetries.end());
+    const auto is_known = [&](const SimilarityTransform& pose) {
+        return std::any_of(known.begin(), known.end(),
+                           [&](const SimilarityTransform& other) { return !search.distance().different(pose, other); });
+    };
+    const auto& samples = search.suspect().model.features.samples;
+    for (std::size_t i = 1; i < known.size(); ++i)
+        for (std::size_t j = 1; j < known.size(); ++j) {
+            if (symmetries.size() >= most_symmetries) return;
+            progress.check();
+            const SimilarityTransform next = compose(compose(known[i], winner.inverse()), known[j]);
+            if (is_known(next)) continue;
+            const Coverage covered =
+                coverage(samples, sample_distances(search.original(), search.suspect().model, next, fit.tolerance),
+                         fit.tolerance);
+            if (covered.share < fit.suspect.share - equal_share) continue;
+            known.push_back(next);
+            symmetries.push_back(next);
+        }
 }
 
 PoseCandidate candidate(const ScoredPose& pose, const Fit& fit) {
@@ -239,6 +267,7 @@ Alignment decide_alignment(PoseSearch& search, const std::string& tried, const P
             ++strangers;
         alignment.runners_up.push_back(candidate(poses[equals[k].index], equals[k].fit));
     }
+    if (strangers == 0) complete_symmetries(search, pose, best.fit, alignment.symmetries, progress);
     std::stable_sort(others.begin(), others.end(), [&](const Ranked& a, const Ranked& b) {
         return a.fit.suspect.soft + a.fit.original.soft > b.fit.suspect.soft + b.fit.original.soft;
     });

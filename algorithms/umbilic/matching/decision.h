@@ -38,7 +38,8 @@ bool settled(const PoseSearch& search);
 /// listed as symmetries: the shape's own (the motion between the two poses lays the original or the suspect on itself),
 /// or, of exact fits, places where the original repeats. If the fit is not exact, a different pose that is no symmetry
 /// and fits within 1.15 times the rms makes the result ambiguous. Among equals the unmirrored pose that turns least
-/// wins. `tried`: what the methods said, for the case that nothing fits.
+/// wins, and symmetries follow from symmetries until none is missing. `tried`: what the methods said, for the case that
+/// nothing fits.
 Alignment decide_alignment(PoseSearch& search, const std::string& tried, const Progress& progress);
 
 }  // namespace umbilic
