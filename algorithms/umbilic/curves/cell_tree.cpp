@@ -15,8 +15,10 @@ namespace umbilic {
 
 namespace {
 
-/// A patch is halved at most this often when the tree is built; queries halve further where they must.
+/// A patch is halved at most this often when the tree is built, and less where there are so many patches that the tree
+/// would get more cells than this; queries halve further where they must.
 constexpr int deepest_halving = 8;
+constexpr double most_cells = 32768;
 /// Cells are halved until, for points up to the model's radius away, the second derivatives of the squared distance are
 /// known up to this part of those of the surface's own metric.
 constexpr double wanted_accuracy = 0.5;
@@ -42,13 +44,17 @@ struct CellTree::Growth {
 
 CellTree::CellTree(const std::vector<Face>& model_faces) {
     BoundingBox box;
+    double patch_count = 0.0;
     for (const Face& face : model_faces) {
         box.add(face.surface.pole_box());
+        patch_count += static_cast<double>((face.surface.u_knots().breaks().size() - 1) *
+                                           (face.surface.v_knots().breaks().size() - 1));
         faces.push_back({face.number, face.surface, face.region, face.region.loops().empty()});
     }
     if (box.empty()) return;
     origin = box.center();
     radius = 0.5 * box.diagonal();
+    halvings = std::clamp(static_cast<int>(std::log2(most_cells / patch_count)), 0, deepest_halving);
 
     std::vector<Growth> growths(faces.size());
     tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t i) {
@@ -126,7 +132,7 @@ void CellTree::grow(Growth& growth, int patch, const Cell& cell, int depth) cons
         grown.trimmed = place == Containment::boundary;
     }
     grown.model = model(source, cell.box, growth.net);
-    if (depth < deepest_halving && !accurate(grown.model, radius)) {
+    if (depth < halvings && !accurate(grown.model, radius)) {
         const int side = longer_side(grown.model);
         const double middle = 0.5 * (cell.box.low[side] + cell.box.high[side]);
         Cell low = grown, high = grown;
