@@ -16,10 +16,13 @@ namespace {
 
 using Vector7 = Eigen::Matrix<double, 7, 1>;
 
-/// Tukey's cut-off in standard deviations, and the standard deviation of a normal distribution in medians of |r|.
-constexpr double tukey = 4.7, median_to_deviation = 1.48;
-/// Until the cut-off is this part of the length it shrinks by `forced_shrink` at least after every step shorter than
-/// itself: a median that foreign material dominates would never let go of it.
+/// Tukey's cut-off in standard deviations, and the standard deviation of a normal distribution in lower quartiles of
+/// |r|. The quartile and not the median: up to three quarters of the points may be foreign.
+constexpr double tukey = 4.7, quartile_to_deviation = 3.14;
+/// A lower quartile above this part of the cut-off means residuals that fill it evenly: there is no noise of a fit to
+/// go by (0.07 at the cut-off that suits noise, 0.25 for an even distribution), and the cut-off shrinks by force.
+constexpr double filled = 0.12;
+/// ... by this factor after every step shorter than itself, until it is this part of the length.
 constexpr double close_cutoff = 1e-3, forced_shrink = 0.6;
 /// The cut-off never falls below this part of the length, far above the rounding of coordinates.
 constexpr double least_cutoff = 1e-9;
@@ -66,14 +69,14 @@ std::vector<Foot> find_feet(const Ground& original, std::span<const WeightedPoin
     return feet;
 }
 
-double median_residual(const std::vector<Foot>& feet) {
+double quartile_residual(const std::vector<Foot>& feet) {
     std::vector<double> residuals;
     for (const Foot& foot : feet)
         if (foot.used) residuals.push_back(std::abs(foot.residual));
     if (residuals.empty()) return 0.0;
-    const auto middle = residuals.begin() + residuals.size() / 2;
-    std::nth_element(residuals.begin(), middle, residuals.end());
-    return *middle;
+    const auto quarter = residuals.begin() + residuals.size() / 4;
+    std::nth_element(residuals.begin(), quarter, residuals.end());
+    return *quarter;
 }
 
 struct NormalEquations {
@@ -123,17 +126,25 @@ NormalEquations normal_equations(std::span<const WeightedPoint> points, const st
     return equations;
 }
 
-/// Least-squares step in mm; motions that are not determined stay 0.
+/// Least-squares step in mm within the motions that change distances; the others stay 0.
 Vector7 solve(const NormalEquations& equations, bool free_scale) {
     const int n = free_scale ? 7 : 6;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(equations.matrix.topLeftCorner(n, n));
-    const Eigen::VectorXd& value = solver.eigenvalues();
-    const Eigen::VectorXd along = solver.eigenvectors().transpose() * equations.gradient.head(n);
-    Vector7 step = Vector7::Zero();
-    for (int k = 0; k < n; ++k)
-        if (value[k] > undetermined_motion * value[n - 1])
-            step.head(n) -= along[k] / value[k] * solver.eigenvectors().col(k);
-    return step;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> motions(equations.unweighted.topLeftCorner(n, n));
+    int determined = 0;
+    while (determined < n &&
+           motions.eigenvalues()[n - 1 - determined] > undetermined_motion * motions.eigenvalues()[n - 1])
+        ++determined;
+    const Eigen::MatrixXd basis = motions.eigenvectors().rightCols(determined);
+    const Eigen::MatrixXd matrix = basis.transpose() * equations.matrix.topLeftCorner(n, n) * basis;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix);
+    const Eigen::VectorXd along = solver.eigenvectors().transpose() * (basis.transpose() * equations.gradient.head(n));
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(determined);
+    for (int k = 0; k < determined; ++k)
+        if (solver.eigenvalues()[k] > undetermined_motion * solver.eigenvalues()[determined - 1])
+            step -= along[k] / solver.eigenvalues()[k] * solver.eigenvectors().col(k);
+    Vector7 result = Vector7::Zero();
+    result.head(n) = basis * step;
+    return result;
 }
 
 SimilarityTransform moved_by(const SimilarityTransform& pose, const Vector7& step, const Vector3& centre,
@@ -186,10 +197,12 @@ Refinement refine(const Ground& original, std::span<const WeightedPoint> points,
         result.radius = 0.5 * length;
         result.cutoff = relative_cutoff * length;
         std::vector<Foot> feet = find_feet(original, points, pose, result.cutoff);
-        const double wanted = tukey * median_to_deviation * median_residual(feet) / length;
-        const bool shrink = relative_cutoff > close_cutoff && last_step < relative_cutoff;
-        const double forced = shrink ? std::max(forced_shrink * relative_cutoff, close_cutoff) : relative_cutoff;
-        const double next_cutoff = std::max(std::min(wanted, forced), least_cutoff);
+        const double quartile = quartile_residual(feet) / length;
+        const bool force =
+            quartile > filled * relative_cutoff && relative_cutoff > close_cutoff && last_step < relative_cutoff;
+        const double wanted =
+            force ? std::max(forced_shrink * relative_cutoff, close_cutoff) : tukey * quartile_to_deviation * quartile;
+        const double next_cutoff = std::max(std::min(wanted, relative_cutoff), least_cutoff);
 
         const NormalEquations equations = normal_equations(points, feet, result.cutoff, result.radius);
         result.share = equations.weight / total;
@@ -197,7 +210,7 @@ Refinement refine(const Ground& original, std::span<const WeightedPoint> points,
         result.rms = std::sqrt(equations.square / equations.weight);
         result.normal_matrix = equations.unweighted;
         result.scale_deviation = scale_deviation(equations) / result.radius;
-        const bool tight = relative_cutoff <= close_cutoff && next_cutoff >= forced_shrink * relative_cutoff;
+        const bool settled = !force && next_cutoff >= forced_shrink * relative_cutoff;
         relative_cutoff = next_cutoff;
 
         Vector7 step = solve(equations, free_scale);
@@ -214,7 +227,8 @@ Refinement refine(const Ground& original, std::span<const WeightedPoint> points,
             free_scale = false;
         }
         const double length_of_step = step.norm() / result.radius;
-        if (tight && (length_of_step < rounding_step || (length_of_step < stagnation && length_of_step >= last_step))) {
+        if (settled &&
+            (length_of_step < rounding_step || (length_of_step < stagnation && length_of_step >= last_step))) {
             result.converged = true;
             break;
         }

@@ -52,9 +52,9 @@ inline constexpr double undetermined_motion = 1e-10;
 /// Least squares of the distances of the suspect's points from the original's surface, all of a similarity free unless
 /// the scale is known (thesis 4.2.4, (4.4), with the distance in the suspect's unit: sum (r / s)^2, row
 /// [(x - o) x n, n, n . (x - o) - r]; minimised in the original's unit, noise makes every scale too small).
-/// Gauss-Newton with Tukey weights whose cut-off shrinks with the median residual, so that material foreign to the
-/// original loses its pull; points whose foot lies on a border and that hang over it are left out. Exact copies end
-/// within rounding.
+/// Gauss-Newton with Tukey weights whose cut-off shrinks with the lower quartile of the residuals, so that material
+/// foreign to the original loses its pull; points whose foot lies on a border and that hang over it are left out. Exact
+/// copies end within rounding.
 Refinement refine(const Ground& original, std::span<const WeightedPoint> points, const SimilarityTransform& start,
                   const RefineOptions& options = {}, const Progress& progress = {});
 
