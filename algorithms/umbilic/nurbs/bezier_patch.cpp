@@ -10,35 +10,6 @@ namespace {
 /// Half an ulp of 1: the largest relative error of one rounded operation.
 constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 
-/// Row-major (degree + 1)^2 matrix that takes the control points i - degree ... i of span i to the Bernstein
-/// coefficients on that span: entry (j, k) is the coefficient of control point k in the polar form at degree - j
-/// arguments low and j arguments high. Both factors of every de Boor step lie in [0, 1] and are formed without
-/// cancellation of rounded numbers, so each entry has a relative error of at most 6 degree unit roundoffs (3 per
-/// quotient of two differences, one product, one sum, per step).
-std::vector<double> extraction_matrix(const KnotVector& knots, int span) {
-    const int p = knots.degree();
-    const std::vector<double>& t = knots.knots();
-    std::vector<double> result((p + 1) * (p + 1));
-    std::vector<double> column(p + 1);
-    for (int k = 0; k <= p; ++k)
-        for (int j = 0; j <= p; ++j) {
-            column.assign(p + 1, 0.0);
-            column[k] = 1.0;
-            for (int level = 1; level <= p; ++level) {
-                const double argument = level <= p - j ? t[span] : t[span + 1];
-                for (int i = p; i >= level; --i) {
-                    const double low = t[span - p + i];
-                    const double high = t[span + 1 + i - level];
-                    const double alpha = (argument - low) / (high - low);
-                    const double beta = (high - argument) / (high - low);
-                    column[i] = beta * column[i - 1] + alpha * column[i];
-                }
-            }
-            result[j * (p + 1) + k] = column[p];
-        }
-    return result;
-}
-
 struct Span {
     int index = 0;
     ParameterInterval interval;
@@ -49,7 +20,7 @@ std::vector<Span> spans(const KnotVector& knots) {
     std::vector<Span> result;
     for (int i = knots.degree(); i < knots.pole_count(); ++i)
         if (knots.knots()[i] < knots.knots()[i + 1])
-            result.push_back({i, {knots.knots()[i], knots.knots()[i + 1]}, extraction_matrix(knots, i)});
+            result.push_back({i, {knots.knots()[i], knots.knots()[i + 1]}, knots.bernstein_matrix(i)});
     return result;
 }
 

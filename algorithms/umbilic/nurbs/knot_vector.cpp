@@ -41,6 +41,9 @@ void check(int degree, const std::vector<double>& knots) {
     }
 }
 
+/// Directory entries for each polynomial piece: with two, most searches end at once on uneven knots too.
+constexpr int directory_entries_per_piece = 2;
+
 }  // namespace
 
 KnotVector::KnotVector(int degree, std::vector<double> knots) : degree_(degree), knots_(std::move(knots)) {
@@ -54,6 +57,19 @@ KnotVector::KnotVector(int degree, std::vector<double> knots) : degree_(degree),
     }
     continuity_.front() = -1;
     continuity_.back() = -1;
+
+    for (int i = degree_; i < pole_count(); ++i)
+        if (knots_[i] < knots_[i + 1]) piece_spans_.push_back(i);
+    const int pieces = static_cast<int>(piece_spans_.size());
+    const int entries = directory_entries_per_piece * pieces;
+    directory_scale_ = entries / range.length();
+    for (int k = 0, piece = 0; k <= entries; ++k) {
+        const double start = range.low + k / directory_scale_;
+        while (piece + 1 < pieces && breaks_[piece + 1] <= start) ++piece;
+        directory_.push_back(piece);
+    }
+    if (degree_ <= maximum_tabulated_degree)
+        for (int k = 0; k < pieces; ++k) basis_pieces_.push_back(tabulate(piece_spans_[k]));
 }
 
 KnotVector KnotVector::bezier(int degree) {
@@ -62,13 +78,78 @@ KnotVector KnotVector::bezier(int degree) {
     return KnotVector(degree, std::move(knots));
 }
 
+BasisPiece KnotVector::tabulate(int span) const {
+    const int p = degree_;
+    const std::vector<double> matrix = bernstein_matrix(span);
+    BasisPiece piece;
+    piece.low = knots_[span];
+    piece.high = knots_[span + 1];
+    piece.first_pole = span - p;
+    const double scale = p / (piece.high - piece.low);
+    const double second_scale = (p - 1) / (piece.high - piece.low);
+    for (int k = 0; k <= p; ++k) {
+        for (int j = 0; j <= p; ++j) piece.value[j][k] = matrix[j * (p + 1) + k];
+        for (int j = 0; j < p; ++j) piece.first[j][k] = scale * (piece.value[j + 1][k] - piece.value[j][k]);
+        for (int j = 0; j + 1 < p; ++j) piece.second[j][k] = second_scale * (piece.first[j + 1][k] - piece.first[j][k]);
+    }
+    return piece;
+}
+
+int KnotVector::piece(double u) const {
+    const int last = static_cast<int>(piece_spans_.size()) - 1;
+    const double entry = (u - breaks_.front()) * directory_scale_;
+    if (!(entry > 0.0)) return 0;
+    const int entries = static_cast<int>(directory_.size()) - 1;
+    if (entry >= entries) return last;
+    const int k = static_cast<int>(entry);
+    int low = directory_[k], high = directory_[k + 1];
+    // Rounding of `entry` may have taken the neighbouring part.
+    low = std::max(low - 1, 0);
+    high = std::min(high + 1, last);
+    while (low < high) {
+        const int middle = (low + high + 1) / 2;
+        if (breaks_[middle] <= u) {
+            low = middle;
+        } else {
+            high = middle - 1;
+        }
+    }
+    return low;
+}
+
+// The polar form at degree - j arguments low and j arguments high. Both factors of every de Boor step lie in [0, 1] and
+// are formed without cancellation of rounded numbers: 3 unit roundoffs per quotient of two differences, one product,
+// one sum, per step.
+std::vector<double> KnotVector::bernstein_matrix(int span) const {
+    const int p = degree_;
+    std::vector<double> result((p + 1) * (p + 1));
+    std::vector<double> column(p + 1);
+    for (int k = 0; k <= p; ++k)
+        for (int j = 0; j <= p; ++j) {
+            column.assign(p + 1, 0.0);
+            column[k] = 1.0;
+            for (int level = 1; level <= p; ++level) {
+                const double argument = level <= p - j ? knots_[span] : knots_[span + 1];
+                for (int i = p; i >= level; --i) {
+                    const double low = knots_[span - p + i];
+                    const double high = knots_[span + 1 + i - level];
+                    const double alpha = (argument - low) / (high - low);
+                    const double beta = (high - argument) / (high - low);
+                    column[i] = beta * column[i - 1] + alpha * column[i];
+                }
+            }
+            result[j * (p + 1) + k] = column[p];
+        }
+    return result;
+}
+
 int KnotVector::span(double u, Side side) const {
+    if (side == Side::right) return piece_spans_[piece(u)];
     const auto first = knots_.begin() + degree_;
     const auto last = knots_.begin() + pole_count();
-    if (u >= *last) u = *last, side = Side::left;
-    if (u <= *first) u = *first, side = Side::right;
-    const auto next = side == Side::right ? std::upper_bound(first, last + 1, u) : std::lower_bound(first, last + 1, u);
-    return static_cast<int>(next - knots_.begin()) - 1;
+    if (u <= *first) return piece_spans_.front();
+    if (u >= *last) return piece_spans_.back();
+    return static_cast<int>(std::lower_bound(first, last, u) - knots_.begin()) - 1;
 }
 
 void KnotVector::basis(int span, double u, int order, double* result) const {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <umbilic/core/errors.h>
+#include <umbilic/nurbs/tabulated_evaluation.h>
 
 namespace umbilic {
 
@@ -17,6 +18,21 @@ namespace {
 constexpr int order_count = maximum_derivative + 1;
 constexpr std::array<std::array<double, order_count>, order_count> binomial = {
     {{1, 0, 0, 0, 0}, {1, 1, 0, 0, 0}, {1, 2, 1, 0, 0}, {1, 3, 3, 1, 0}, {1, 4, 6, 4, 1}}};
+
+/// Evaluates by the tables of the knot vectors, if there are any for this surface and order.
+template <typename Use>
+bool evaluate_tabulated(const NurbsSurface& surface, int order, const Use& use) {
+    switch (order) {
+        case 0:
+            return with_tabulated_evaluation<0>(surface, use);
+        case 1:
+            return with_tabulated_evaluation<1>(surface, use);
+        case 2:
+            return with_tabulated_evaluation<2>(surface, use);
+        default:
+            return false;
+    }
+}
 
 std::vector<double> reversed_knots(const KnotVector& knots) {
     const double sum = knots.domain().low + knots.domain().high;
@@ -61,6 +77,10 @@ Vector3 NurbsSurface::value(double u, double v) const {
 
 SurfaceDerivatives NurbsSurface::derivatives(double u, double v, int order, Side u_side, Side v_side) const {
     assert(0 <= order && order <= maximum_derivative);
+    SurfaceDerivatives result;
+    if (u_side == Side::right && v_side == Side::right &&
+        evaluate_tabulated(*this, order, [&](auto evaluation) { evaluation.point(*this, u, v, result); }))
+        return result;
     const int p = u_degree(), q = v_degree();
     const int u_span = u_knots_.span(u, u_side);
     const int v_span = v_knots_.span(v, v_side);
@@ -85,7 +105,6 @@ SurfaceDerivatives NurbsSurface::derivatives(double u, double v, int order, Side
             for (int l = 0; l <= order - k; ++l) homogeneous[k][l] += u_basis[k * (p + 1) + i] * row[l];
     }
 
-    SurfaceDerivatives result;
     result.order = order;
     for (int n = 0; n <= order; ++n)
         for (int l = 0; l <= n; ++l) {
@@ -106,6 +125,8 @@ SurfaceDerivatives NurbsSurface::derivatives(double u, double v, int order, Side
 void NurbsSurface::derivatives(std::span<const Vector2> parameters, int order,
                                std::span<SurfaceDerivatives> result) const {
     assert(parameters.size() == result.size());
+    if (evaluate_tabulated(*this, order, [&](auto evaluation) { evaluation.points(*this, parameters, result); }))
+        return;
     for (std::size_t i = 0; i < parameters.size(); ++i)
         result[i] = derivatives(parameters[i].x(), parameters[i].y(), order);
 }
