@@ -43,6 +43,8 @@ void check(int degree, const std::vector<double>& knots) {
 
 /// Directory entries for each polynomial piece: with two, most searches end at once on uneven knots too.
 constexpr int directory_entries_per_piece = 2;
+/// More pieces than this in one directory entry are searched by halving.
+constexpr int longest_walk = 4;
 
 }  // namespace
 
@@ -102,19 +104,15 @@ int KnotVector::piece(double u) const {
     const int entries = static_cast<int>(directory_.size()) - 1;
     if (entry >= entries) return last;
     const int k = static_cast<int>(entry);
-    int low = directory_[k], high = directory_[k + 1];
-    // Rounding of `entry` may have taken the neighbouring part.
-    low = std::max(low - 1, 0);
-    high = std::min(high + 1, last);
-    while (low < high) {
-        const int middle = (low + high + 1) / 2;
-        if (breaks_[middle] <= u) {
-            low = middle;
-        } else {
-            high = middle - 1;
-        }
+    int result = directory_[k];
+    if (directory_[k + 1] - result > longest_walk) {
+        const auto next = std::upper_bound(breaks_.begin() + result, breaks_.begin() + directory_[k + 1] + 1, u);
+        result = std::max(static_cast<int>(next - breaks_.begin()) - 1, 0);
     }
-    return low;
+    // Rounding of `entry` may have taken the neighbouring part.
+    while (result > 0 && u < breaks_[result]) --result;
+    while (result < last && breaks_[result + 1] <= u) ++result;
+    return result;
 }
 
 // The polar form at degree - j arguments low and j arguments high. Both factors of every de Boor step lie in [0, 1] and

@@ -46,7 +46,7 @@ private:
     static void sum_over_v(const Sums& sums, const BasisPiece& piece, double v, SurfaceDerivatives& result) {
         const auto functions = basis<Q>(piece, v);
         result.order = Order;
-        std::array<std::array<double, dimension>, (Order + 1) * (Order + 2) / 2> h{};
+        std::array<std::array<double, dimension>, (Order + 1) * (Order + 2) / 2> h;
         for (int n = 0, at = 0; n <= Order; ++n)
             for (int l = 0; l <= n; ++l, ++at)
                 for (int c = 0; c < dimension; ++c) {
@@ -55,19 +55,20 @@ private:
                     h[at][c] = sum;
                 }
         if constexpr (Rational) {
-            // Quotient rule (thesis (2.36)-(2.38)) up to order 2.
-            const double w = 1.0 / h[0][3];
+            // Quotient rule (thesis (2.36)-(2.38)) up to order 2. Divided, not multiplied by a reciprocal: derivatives
+            // along a collapsed edge then vanish exactly more often.
+            const double w = h[0][3];
             const auto vector = [&](int at) { return Vector3(h[at][0], h[at][1], h[at][2]); };
-            result(0, 0) = w * vector(0);
+            result(0, 0) = vector(0) / w;
             if constexpr (Order >= 1) {
-                result(1, 0) = w * (vector(1) - h[1][3] * result(0, 0));
-                result(0, 1) = w * (vector(2) - h[2][3] * result(0, 0));
+                result(1, 0) = (vector(1) - h[1][3] * result(0, 0)) / w;
+                result(0, 1) = (vector(2) - h[2][3] * result(0, 0)) / w;
             }
             if constexpr (Order >= 2) {
-                result(2, 0) = w * (vector(3) - 2 * h[1][3] * result(1, 0) - h[3][3] * result(0, 0));
+                result(2, 0) = (vector(3) - 2 * h[1][3] * result(1, 0) - h[3][3] * result(0, 0)) / w;
                 result(1, 1) =
-                    w * (vector(4) - h[1][3] * result(0, 1) - h[2][3] * result(1, 0) - h[4][3] * result(0, 0));
-                result(0, 2) = w * (vector(5) - 2 * h[2][3] * result(0, 1) - h[5][3] * result(0, 0));
+                    (vector(4) - h[1][3] * result(0, 1) - h[2][3] * result(1, 0) - h[4][3] * result(0, 0)) / w;
+                result(0, 2) = (vector(5) - 2 * h[2][3] * result(0, 1) - h[5][3] * result(0, 0)) / w;
             }
         } else {
             for (int n = 0, at = 0; n <= Order; ++n)
