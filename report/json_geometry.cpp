@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <report/json_geometry.h>
 
+#include <umbilic/similarity/strong_test.h>
+
 namespace umbilic {
 
 namespace {
@@ -88,11 +90,8 @@ Vector2 native_parameters(const Face& face, double u, double v) {
 
 std::vector<LocatedUmbilic> isolated_umbilics(const PreparedModel& prepared) {
     std::vector<LocatedUmbilic> located;
-    for (const FaceUmbilics& found : prepared.features.umbilics) {
-        const Face& face = prepared.model.face(found.face);
-        for (const Umbilic& umbilic : found.umbilics) {
-            if (umbilic.containment == Containment::inside) located.push_back({&face, &umbilic});
-        }
+    for (const Umbilic* umbilic : umbilics_inside(prepared.features.umbilics)) {
+        located.push_back({&prepared.model.face(umbilic->at.face), umbilic});
     }
     return located;
 }

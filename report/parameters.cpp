@@ -78,29 +78,31 @@ std::vector<Parameter> match_parameters(const FeatureOptions& features, const Ma
         parameters.push_back(
             {"pairs", options.pairs.size(), "1", ToleranceOrigin::user, "number of known corresponding points"});
     }
-    parameters.push_back({"match-tolerance", number_json(alignment.tolerance), "mm",
+    parameters.push_back({"match_tolerance", number_json(alignment.tolerance), "mm",
                           options.tolerance ? ToleranceOrigin::user : ToleranceOrigin::derived,
-                          "a sample lies on the other model if its distance <= match-tolerance"});
+                          "a sample lies on the other model if its distance <= match_tolerance"});
     parameters.push_back(constant(
-        "umbilic-invariant-tolerance", options.umbilic_invariant_tolerance, defaults.umbilic_invariant_tolerance, "1",
-        "two umbilics may correspond if their (delta, zeta) differ by <= umbilic-invariant-tolerance"));
+        "umbilic_invariant_tolerance", options.umbilic_invariant_tolerance, defaults.umbilic_invariant_tolerance, "1",
+        "two umbilics may correspond if their (delta, zeta) differ by <= umbilic_invariant_tolerance"));
     parameters.push_back(constant("samples", features.samples.count, feature_defaults.samples.count, "1",
                                   "points spread over each model by area"));
     parameters.push_back(constant("seed", features.samples.seed, feature_defaults.samples.seed, "1",
                                   "start of the sequence that spreads the points"));
-    parameters.push_back(constant("umbilic-resolution", search.resolution, search_defaults.resolution, "1",
+    parameters.push_back(constant("umbilic_resolution", search.resolution, search_defaults.resolution, "1",
                                   "a box of the search is split until it is decided or its side relative to the domain "
-                                  "is <= umbilic-resolution"));
-    parameters.push_back(constant("umbilic-boxes", search.boxes_per_patch, search_defaults.boxes_per_patch, "1",
-                                  "boxes of the search per Bezier patch <= umbilic-boxes"));
-    parameters.push_back(constant("umbilic-margin", search.generic_margin, search_defaults.generic_margin, "1",
+                                  "is <= umbilic_resolution"));
+    parameters.push_back(constant("umbilic_boxes", search.boxes_per_patch, search_defaults.boxes_per_patch, "1",
+                                  "boxes of the search per Bezier patch <= umbilic_boxes"));
+    parameters.push_back(constant("umbilic_margin", search.generic_margin, search_defaults.generic_margin, "1",
                                   "an umbilic is non-generic if its distance from a dividing curve, relative, is <= "
-                                  "umbilic-margin"));
+                                  "umbilic_margin"));
     return parameters;
 }
 
 std::vector<Parameter> compare_parameters(const CompareOptions& options, const Comparison& comparison) {
-    auto parameters = match_parameters(options.features, options.match, comparison.alignment);
+    MatchOptions match_options = options.match;
+    if (!match_options.tolerance) match_options.tolerance = options.tolerances.distance;  // as compare() does
+    auto parameters = match_parameters(options.features, match_options, comparison.alignment);
     parameters.push_back(constant("algorithm", options.algorithm, CompareOptions().algorithm, "1",
                                   "decision algorithm that gives the level of the verdict"));
     for (const Tolerance& tolerance : comparison.assessment.tolerances) {

@@ -17,7 +17,8 @@ struct Parameter {
     std::string meaning;  ///< the inequality it enters, or what it chooses
 };
 
-/// Parameters of a search for the pose. An option counts as the user's where it differs from its default.
+/// Parameters of a search for the pose, for options as match() got them. An option counts as the user's where it
+/// differs from its default.
 std::vector<Parameter> match_parameters(const FeatureOptions& features, const MatchOptions& options,
                                         const Alignment& alignment);
 

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <report/html.h>
+
+#include <report/base64.h>
+#include <report/html_sections.h>
+#include <report/omega_plane.h>
+#include <report/page.h>
+#include <report/scene.h>
+#include <report/views.h>
+
+namespace umbilic {
+
+namespace {
+
+PageData views_data(const std::vector<View>& views) {
+    PageData list{PageData::type::list};
+    for (const View& view : views) {
+        PageData entry;
+        entry.set("caption", view.caption);
+        entry.set("source", "data:image/png;base64," + base64(view.png));
+        list.push_back(entry);
+    }
+    return list;
+}
+
+PageData type_keys() {
+    PageData list{PageData::type::list};
+    for (const UmbilicType type :
+         {UmbilicType::star, UmbilicType::lemon, UmbilicType::monstar, UmbilicType::non_generic}) {
+        PageData entry;
+        entry.set("name", name(type));
+        entry.set("color", hex(color_of(type)));
+        list.push_back(entry);
+    }
+    return list;
+}
+
+}  // namespace
+
+std::string report_html(const ReportInput& input, const Progress& progress) {
+    const Comparison& comparison = input.comparison;
+    progress.report(0.0, "measuring the pictures");
+    const Scene scene =
+        make_scene(input.original, input.original_meshes, input.suspect, input.suspect_meshes, comparison, progress);
+    progress.report(0.6, "drawing the pictures");
+    PageData page;
+    page.set("style", page_style());
+    page.set("three", page_three());
+    page.set("orbit_controls", page_orbit_controls());
+    page.set("viewer", page_viewer());
+    page.set("scene", scene_json(scene));
+    page.set("posed", scene.posed);
+    page.set("legend_size", legend_svg(scene.scale, false, "scale-size"));
+    page.set("legend_signed", legend_svg(scene.scale, true, "scale-signed"));
+    page.set("legend_printed", legend_svg(scene.scale, false, "scale-printed"));
+    page.set("color_within", hex(color_within));
+    page.set("color_beyond", hex(color_beyond));
+    page.set("types", type_keys());
+    page.set("has_umbilics", !scene.umbilics.empty());
+    const SimilarityTransform shown =
+        scene.posed ? comparison.alignment.original_suspect.inverse() : SimilarityTransform();
+    page.set("model_views", views_data(model_views(scene, shown)));
+    page.set("deviation_views", views_data(deviation_views(scene)));
+    page.set("test_views", views_data(test_views(scene, comparison.assessment)));
+    page.set("omega_plane", omega_plane_svg(input.original, input.suspect,
+                                            scene.posed && comparison.alignment.original_suspect.mirrored));
+    progress.report(0.9, "writing the page");
+    set_summary(input, page);
+    set_decisions(comparison.verdict, page);
+    set_exhibits(input.original.model, input.suspect.model, page);
+    set_alignment(comparison.alignment, page);
+    set_statistics(comparison.assessment, page);
+    set_umbilics(input, page);
+    set_provenance(input, page);
+    kainjow::mustache::mustache page_template(page_report());
+    assert(page_template.is_valid());
+    return page_template.render(page);
+}
+
+}  // namespace umbilic

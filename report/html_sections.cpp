@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <report/html_sections.h>
+
+#include <array>
+#include <numbers>
+
+#include <Eigen/Geometry>
+#include <boost/algorithm/string/replace.hpp>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <report/parameters.h>
+#include <report/readable.h>
+#include <report/versions.h>
+
+namespace umbilic {
+
+namespace {
+
+/// Rows of the table of faces that are printed; all are in result.json.
+constexpr std::size_t most_face_rows = 200;
+
+/// Bytes of an answer from which on its letters are smaller.
+constexpr std::size_t long_answer = 90;
+
+/// One row or entry from keys and texts.
+PageData entry(std::initializer_list<std::pair<const char*, std::string>> fields) {
+    PageData data;
+    for (const auto& [key, value] : fields) data.set(key, value);
+    return data;
+}
+
+std::string degrees(double radians) {
+    return readable(radians * 180.0 / std::numbers::pi) + "°";
+}
+
+std::string joined(const Vector3& vector, int digits = 6) {
+    return "(" + readable(vector.x(), digits) + ", " + readable(vector.y(), digits) + ", " +
+           readable(vector.z(), digits) + ")";
+}
+
+std::string yes_no(bool value) {
+    return value ? "yes" : "no";
+}
+
+PageData texts(const std::vector<std::string>& lines) {
+    PageData list{PageData::type::list};
+    for (const std::string& line : lines) list.push_back(entry({{"text", line}}));
+    return list;
+}
+
+std::string plural(std::size_t count, const std::string& noun) {
+    return readable_count(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+void set_summary(const ReportInput& input, PageData& page) {
+    const Comparison& comparison = input.comparison;
+    const Assessment& assessment = comparison.assessment;
+    const Alignment& alignment = comparison.alignment;
+    const Verdict& verdict = comparison.verdict;
+    page.set("original_name", base_name(input.original.model.source.path));
+    page.set("suspect_name", base_name(input.suspect.model.source.path));
+    page.set("answer", comparison.answer.text);
+    page.set("level", name(verdict.level));
+    page.set("long_answer", comparison.answer.text.size() > long_answer);
+    page.set("explanation", verdict.explanation);
+    page.set("algorithm", std::to_string(verdict.chosen_algorithm));
+    PageData steps{PageData::type::list};
+    for (const Level level : {Level::none, Level::weak, Level::intermediate, Level::strong}) {
+        PageData step = entry({{"name", name(level)}});
+        step.set("reached", level <= verdict.level && (level != Level::none || verdict.level == Level::none));
+        step.set("here", level == verdict.level);
+        steps.push_back(step);
+    }
+    page.set("levels", steps);
+
+    PageData figures{PageData::type::list};
+    const auto figure = [&](std::string value, std::string what) {
+        figures.push_back(entry({{"value", std::move(value)}, {"what", std::move(what)}}));
+    };
+    const DirectedComparison& forward = assessment.suspect_on_original;
+    if (!forward.nodes.empty()) {
+        figure(readable_percent(forward.coverage), "of the suspect lies on the original");
+        figure(readable_percent(assessment.original_on_suspect.coverage), "of the original is covered");
+        figure(readable(forward.distance.max, "mm", 3),
+               assessment.scope == MatchScope::partial ? "largest deviation in the overlap" : "largest deviation");
+        figure(readable(alignment.original_suspect.scale, 6), "scale, suspect to original");
+        const std::size_t pairs = assessment.strong.pairs.size();
+        figure(readable_count(pairs), pairs == 1 ? "pair of umbilics" : "pairs of umbilics");
+    }
+    page.set("figures", figures);
+    page.set("has_figures", !forward.nodes.empty());
+}
+
+void set_decisions(const Verdict& verdict, PageData& page) {
+    PageData decisions{PageData::type::list};
+    const std::array<std::pair<const char*, const Decision*>, 2> both = {
+        {{"Algorithm 1: maxima against tolerances", &verdict.algorithm_1},
+         {"Algorithm 2: statistics against thresholds", &verdict.algorithm_2}}};
+    for (int i = 0; i < 2; ++i) {
+        PageData decision = entry({{"name", both[i].first}, {"level", name(both[i].second->level)}});
+        decision.set("chosen", verdict.chosen_algorithm == i + 1);
+        PageData path{PageData::type::list};
+        for (const DecisionStep& step : both[i].second->path) {
+            path.push_back(entry({{"question", step.question}, {"answer", yes_no(step.answer)}}));
+        }
+        decision.set("path", path);
+        decisions.push_back(decision);
+    }
+    page.set("decisions", decisions);
+}
+
+void set_exhibits(const Model& original, const Model& suspect, PageData& page) {
+    PageData rows{PageData::type::list};
+    const auto row = [&](const char* what, const auto& text_of) {
+        rows.push_back(entry({{"what", what}, {"original", text_of(original)}, {"suspect", text_of(suspect)}}));
+    };
+    row("File", [](const Model& model) { return base_name(model.source.path); });
+    row("Path", [](const Model& model) { return model.source.path; });
+    row("SHA-256", [](const Model& model) { return model.source.sha256; });
+    row("Bytes", [](const Model& model) { return readable_count(model.source.bytes); });
+    row("Format", [](const Model& model) { return model.source.format; });
+    row("Unit", [](const Model& model) {
+        const std::string& unit = model.source.unit;
+        return unit == "mm" ? unit : unit + " (1 = " + readable(model.source.unit_in_mm, 8) + " mm)";
+    });
+    row("Solids", [](const Model& model) { return readable_count(model.solids.size()); });
+    row("Faces", [](const Model& model) {
+        const std::string read = readable_count(model.faces.size());
+        return model.declared_faces < 0 ? read
+                                        : read + " of " + readable_count(model.declared_faces) + " that it declares";
+    });
+    row("Size", [](const Model& model) {
+        if (model.box.empty()) return std::string("–");
+        const Vector3 size = model.box.high - model.box.low;
+        return readable(size.x()) + " × " + readable(size.y()) + " × " + readable(size.z()) + " mm";
+    });
+    row("Area", [](const Model& model) { return readable(model.area, "mm²", 8); });
+    row("Volume", [](const Model& model) { return model.solids.empty() ? "–" : readable(model.volume, "mm³", 8); });
+    row("Topology valid", [](const Model& model) { return yes_no(model.valid); });
+    page.set("exhibits", rows);
+
+    PageData notes{PageData::type::list};
+    for (const Model* model : {&original, &suspect}) {
+        std::vector<std::string> lines;
+        for (const Skipped& skipped : model->skipped) {
+            lines.push_back("Skipped " + (skipped.face > 0 ? "face " + std::to_string(skipped.face) : skipped.entity) +
+                            ": " + skipped.why);
+        }
+        for (const std::string& repair : model->repaired) lines.push_back("Repaired: " + repair);
+        for (const std::string& warning : model->warnings) lines.push_back("Warning: " + warning);
+        if (lines.empty()) continue;
+        PageData note = entry({{"model", model == &original ? "Original" : "Suspect"}});
+        note.set("lines", texts(lines));
+        notes.push_back(note);
+    }
+    page.set("notes", notes);
+}
+
+void set_alignment(const Alignment& alignment, PageData& page) {
+    const SimilarityTransform& pose = alignment.original_suspect;
+    const Eigen::AngleAxisd turn(pose.rotation);
+    PageData rows{PageData::type::list};
+    const auto row = [&](const char* what, std::string value) {
+        rows.push_back(entry({{"what", what}, {"value", std::move(value)}}));
+    };
+    row("Status", name(alignment.status));
+    row("How", alignment.why);
+    PageData matrix{PageData::type::list};
+    if (alignment.status != AlignmentStatus::not_found) {
+        row("Method", name(alignment.method));
+        row("Scope", name(alignment.scope));
+        row("Scale σ", readable(pose.scale, 10));
+        row("Mirrored", pose.mirrored ? "yes, in x before the rotation" : "no");
+        row("Rotation", degrees(turn.angle()) + " about " + joined(turn.axis()));
+        row("Translation", joined(pose.translation, 8) + " mm");
+        row("RMS distance", readable(alignment.rms, "mm"));
+        row("Largest distance", readable(alignment.max, "mm"));
+        row("Relative largest distance", readable(alignment.relative_max) + " (over √area of the original)");
+        row("Counts as covered", "distance ≤ " + readable(alignment.tolerance, "mm"));
+        row("Poses that fit equally well", readable_count(alignment.symmetries.size()));
+        for (int i = 0; i < 3; ++i) {
+            matrix.push_back(entry({{"x", fmt::format("{:.9f}", pose.rotation(i, 0))},
+                                    {"y", fmt::format("{:.9f}", pose.rotation(i, 1))},
+                                    {"z", fmt::format("{:.9f}", pose.rotation(i, 2))}}));
+        }
+    }
+    page.set("alignment", rows);
+    page.set("rotation", matrix);
+    PageData candidates{PageData::type::list};
+    for (const PoseCandidate& candidate : alignment.runners_up) {
+        const SimilarityTransform& other = candidate.original_suspect;
+        candidates.push_back(entry({{"method", name(candidate.method)},
+                                    {"score", readable_percent(candidate.score)},
+                                    {"original_score", readable_percent(candidate.original_score)},
+                                    {"rms", readable(candidate.rms, "mm")},
+                                    {"scale", readable(other.scale, 6)},
+                                    {"mirrored", yes_no(other.mirrored)},
+                                    {"angle", degrees(rotation_angle_between(other.rotation, pose.rotation))}}));
+    }
+    page.set("has_candidates", !alignment.runners_up.empty());
+    page.set("candidates", candidates);
+}
+
+void set_statistics(const Assessment& assessment, PageData& page) {
+    PageData rows{PageData::type::list};
+    const auto row = [&](const char* what, Statistics DirectedComparison::*quantity) {
+        PageData data = entry({{"what", what}});
+        PageData cells{PageData::type::list};
+        for (const DirectedComparison* directed : {&assessment.suspect_on_original, &assessment.original_on_suspect}) {
+            const Statistics& statistics = directed->*quantity;
+            const bool known = statistics.count > 0;
+            for (const double value : {statistics.max, statistics.mean, statistics.standard_deviation}) {
+                cells.push_back(entry({{"text", known ? readable(value, 3) : "–"}}));
+            }
+            cells.push_back(entry({{"text", readable_count(statistics.count)}}));
+        }
+        data.set("cells", cells);
+        rows.push_back(data);
+    };
+    row("Distance (mm)", &DirectedComparison::distance);
+    row("Maximum principal curvature (1/mm)", &DirectedComparison::kappa_max);
+    row("Minimum principal curvature (1/mm)", &DirectedComparison::kappa_min);
+    row("Principal direction (rad)", &DirectedComparison::direction);
+    page.set("statistics", rows);
+    const bool assessed = !assessment.suspect_on_original.nodes.empty();
+    page.set("assessed", assessed);
+    page.set("partial", assessment.scope == MatchScope::partial);
+
+    PageData local{PageData::type::list};
+    const auto similarity = [&](const char* what, const LocalSimilarity& value, const char* unit) {
+        local.push_back(entry({{"what", what},
+                               {"tolerance", readable(value.tolerance, unit)},
+                               {"percent", readable_percent(value.percent / 100.0)},
+                               {"cell_percent", value.cells > 0 ? readable_percent(value.cell_percent / 100.0) : "–"},
+                               {"cells", readable_count(value.cells)},
+                               {"marked", readable_count(value.marked)}}));
+    };
+    similarity("Distance", assessment.distance, "mm");
+    similarity("Maximum principal curvature", assessment.kappa_max, "1/mm");
+    similarity("Minimum principal curvature", assessment.kappa_min, "1/mm");
+    similarity("Principal direction", assessment.direction, "rad");
+    page.set("similarity", local);
+    page.set("cell", readable(assessment.cell));
+
+    PageData faces{PageData::type::list};
+    for (std::size_t i = 0; i < std::min(most_face_rows, assessment.faces.size()); ++i) {
+        const FaceCoverage& face = assessment.faces[i];
+        faces.push_back(entry({{"suspect", std::to_string(face.suspect_face)},
+                               {"original", face.original_face > 0 ? std::to_string(face.original_face) : "–"},
+                               {"fraction", readable_percent(face.fraction)},
+                               {"level", face.level}}));
+    }
+    page.set("faces", faces);
+    page.set("has_faces", !assessment.faces.empty());
+    if (assessment.faces.size() > most_face_rows) {
+        page.set("more_faces", plural(assessment.faces.size() - most_face_rows, "more face"));
+    }
+}
+
+void set_provenance(const ReportInput& input, PageData& page) {
+    PageData parameters{PageData::type::list};
+    for (const Parameter& parameter : compare_parameters(input.options, input.comparison)) {
+        const std::string value = parameter.value.is_string()         ? parameter.value.get<std::string>()
+                                  : parameter.value.is_number_float() ? readable(parameter.value.get<double>())
+                                  : parameter.value.is_null()         ? "–"
+                                                                      : parameter.value.dump();
+        parameters.push_back(entry({{"name", parameter.name},
+                                    {"value", value},
+                                    {"unit", parameter.unit == "1" ? "" : parameter.unit},
+                                    {"origin", name(parameter.origin)},
+                                    {"meaning", boost::replace_all_copy(parameter.meaning, "<=", "≤")}}));
+    }
+    page.set("parameters", parameters);
+    page.set("command_line", input.command_line);
+    const Versions used = versions();
+    page.set("version", used.umbilic);
+    page.set("commit", used.commit);
+    page.set("opencascade", used.opencascade);
+    page.set("made", fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr))));
+    PageData stages{PageData::type::list};
+    double total = 0.0;
+    for (const Timing* timing : {&input.timing, &input.comparison.timing}) {
+        for (const auto& [stage, seconds] : *timing) {
+            stages.push_back(entry({{"stage", stage}, {"seconds", fmt::format("{:.2f}", seconds)}}));
+            total += seconds;
+        }
+    }
+    page.set("timing", stages);
+    page.set("total_seconds", fmt::format("{:.2f}", total));
+}
+
+}  // namespace umbilic

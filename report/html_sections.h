@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <kainjow/mustache.hpp>
+
+#include <report/html.h>
+
+namespace umbilic {
+
+/// Values that the page's template (page/report.html) shows; escaping is the template engine's work.
+using PageData = kainjow::mustache::data;
+
+/// Answer, level and key figures.
+void set_summary(const ReportInput& input, PageData& page);
+/// Both decision algorithms, step by step.
+void set_decisions(const Verdict& verdict, PageData& page);
+/// Both files side by side.
+void set_exhibits(const Model& original, const Model& suspect, PageData& page);
+/// Pose, runners-up, symmetries.
+void set_alignment(const Alignment& alignment, PageData& page);
+/// Statistics of both directions, local similarity, faces.
+void set_statistics(const Assessment& assessment, PageData& page);
+/// Isolated umbilics of both models and their pairs.
+void set_umbilics(const ReportInput& input, PageData& page);
+/// Parameters, command line, versions, timing.
+void set_provenance(const ReportInput& input, PageData& page);
+
+}  // namespace umbilic

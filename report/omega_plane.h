@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <string>
+
+#include <umbilic/matching/prepared_model.h>
+
+namespace umbilic {
+
+/// The omega plane (thesis 2.1.4, Fig. 6-4) as an SVG element: the dividing curves |omega| = 1, Gamma_1 and Gamma_2
+/// with the isolated umbilics of both models. All are seen from the outward side of their face, those of a mirrored
+/// suspect mirrored back, so that corresponding umbilics coincide. Umbilics without an omega (alpha = 0) are not in
+/// the picture.
+std::string omega_plane_svg(const PreparedModel& original, const PreparedModel& suspect, bool mirrored);
+
+}  // namespace umbilic

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <string>
+
+#include <report/html.h>
+
+namespace umbilic {
+
+/// Writes a file that appears whole or not at all: beside it first, then renamed. What is not a regular file (a pipe, a
+/// terminal) is written to directly. Throws NumericFailure, naming the file, if it cannot be written.
+void write_file(const std::string& path, const std::string& contents);
+
+/// Makes the folder and writes report.html, result.json, deviation.csv and, if a pose was found, aligned.step (the
+/// suspect in that pose). They are assembled beside the folder and moved there at the end: an error or a cancel leaves
+/// nothing. Other files in the folder are left alone. `result` is the JSON of compare_json(). Throws NumericFailure,
+/// naming the file, if something cannot be written; Cancelled.
+void write_report(const std::string& folder, const ReportInput& input, const Json& result,
+                  const Progress& progress = {});
+
+}  // namespace umbilic

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Both models in space. Without WebGL the page keeps its still pictures.
+(function () {
+  'use strict';
+
+  const scene = JSON.parse(document.getElementById('scene').textContent);
+  const figure = document.querySelector('.viewer');
+  const stage = figure.querySelector('.stage');
+  const canvas = figure.querySelector('canvas');
+  const label = figure.querySelector('.label');
+
+  // What paper shows if the reader leaves the page as it is.
+  figure.hidden = false;
+  let renderer;
+  try {
+    renderer = new THREE.WebGLRenderer({ canvas: canvas, antialias: true, alpha: true });
+  } catch (error) {
+    figure.hidden = true;
+    return;
+  }
+  document.documentElement.classList.add('webgl');
+
+  function unpack(text, ArrayType) {
+    const bytes = Uint8Array.from(atob(text), character => character.charCodeAt(0));
+    return new ArrayType(bytes.buffer);
+  }
+
+  function geometryOf(mesh) {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute('position', new THREE.BufferAttribute(unpack(mesh.points, Float32Array), 3));
+    geometry.setIndex(new THREE.BufferAttribute(unpack(mesh.triangles, Uint32Array), 1));
+    geometry.computeVertexNormals();
+    return geometry;
+  }
+
+  function edgesOf(mesh, geometry) {
+    const edges = new THREE.BufferGeometry();
+    edges.setAttribute('position', geometry.getAttribute('position'));
+    edges.setIndex(new THREE.BufferAttribute(unpack(mesh.edges, Uint32Array), 1));
+    return new THREE.LineSegments(edges, new THREE.LineBasicMaterial({ color: 0x30363d, transparent: true, opacity: 0.8 }));
+  }
+
+  function colorsOf(deviation, table, low, high) {
+    const parsed = table.map(text => new THREE.Color(text));
+    const colors = new Float32Array(3 * deviation.length);
+    deviation.forEach((value, i) => {
+      const t = Math.min(1, Math.max(0, (value - low) / (high - low)));
+      parsed[Math.round(t * (parsed.length - 1))].toArray(colors, 3 * i);
+    });
+    return new THREE.BufferAttribute(colors, 3);
+  }
+
+  const world = new THREE.Scene();
+  const size = scene.diagonal || 1;
+  const camera = new THREE.PerspectiveCamera(30, 1, size / 1000, size * 100);
+  camera.up.set(0, 0, 1);
+  world.add(camera);
+  world.add(new THREE.HemisphereLight(0xffffff, 0xb8bcc4, 0.75));
+  const lamp = new THREE.DirectionalLight(0xffffff, 0.35);
+  lamp.position.set(-0.4, 0.5, 1);
+  camera.add(lamp);
+
+  // The suspect, coloured by deviation.
+  const suspectGeometry = geometryOf(scene.suspect);
+  const deviation = unpack(scene.suspect.deviation, Float32Array);
+  const coloring = {};
+  if (scene.posed) {
+    const magnitude = deviation.map(Math.abs);
+    coloring.size = colorsOf(magnitude, scene.colors.size, 0, scene.range);
+    coloring.signed = colorsOf(deviation, scene.colors.signed, -scene.range, scene.range);
+    suspectGeometry.setAttribute('color', coloring.size);
+  }
+  const suspect = new THREE.Mesh(suspectGeometry, new THREE.MeshPhongMaterial({
+    specular: 0x4a4a4a, shininess: 18,
+    color: scene.posed ? 0xffffff : 0xc8a98a,
+    vertexColors: scene.posed ? THREE.VertexColors : THREE.NoColors,
+    side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1
+  }));
+  const suspectEdges = edgesOf(scene.suspect, suspectGeometry);
+
+  // The original, translucent where both lie on each other.
+  const originalGeometry = geometryOf(scene.original);
+  const original = new THREE.Mesh(originalGeometry, new THREE.MeshLambertMaterial({
+    color: 0x9db4c8, side: THREE.DoubleSide, transparent: scene.posed, opacity: scene.posed ? 0.35 : 1,
+    depthWrite: !scene.posed, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 2
+  }));
+  const originalEdges = edgesOf(scene.original, originalGeometry);
+  world.add(suspect, suspectEdges, original, originalEdges);
+
+  // Umbilics: a shape for each type, a short line along each line of curvature that runs into it.
+  const shapes = {
+    'star': new THREE.TetrahedronBufferGeometry(1.5),
+    'lemon': new THREE.SphereBufferGeometry(1, 12, 8),
+    'monstar': new THREE.BoxBufferGeometry(1.6, 1.6, 1.6),
+    'non-generic': new THREE.OctahedronBufferGeometry(1.3)
+  };
+  const umbilics = new THREE.Group();
+  const glyphs = [];
+  scene.umbilics.forEach(umbilic => {
+    const color = scene.types[umbilic.type];
+    const glyph = new THREE.Mesh(shapes[umbilic.type],
+      new THREE.MeshBasicMaterial({ color: color, wireframe: umbilic.suspect }));
+    glyph.position.fromArray(umbilic.point);
+    glyph.scale.setScalar(size * (umbilic.suspect ? 0.011 : 0.008));
+    glyph.userData.text = umbilic.label;
+    glyphs.push(glyph);
+    umbilics.add(glyph);
+    const ends = [];
+    umbilic.directions.forEach(direction => {
+      const reach = new THREE.Vector3().fromArray(direction).multiplyScalar(0.035 * size);
+      ends.push(glyph.position.clone().add(reach), glyph.position.clone().sub(reach));
+    });
+    umbilics.add(new THREE.LineSegments(new THREE.BufferGeometry().setFromPoints(ends),
+      new THREE.LineBasicMaterial({ color: color })));
+  });
+  world.add(umbilics);
+
+  const controls = new THREE.OrbitControls(camera, canvas);
+  controls.screenSpacePanning = true;
+
+  function render() {
+    renderer.render(world, camera);
+  }
+
+  function reset() {
+    const box = new THREE.Box3().setFromObject(suspect);
+    if (!scene.posed) box.union(new THREE.Box3().setFromObject(original));
+    const sphere = box.getBoundingSphere(new THREE.Sphere());
+    const narrow = Math.min(1, camera.aspect);
+    const distance = 1.05 * sphere.radius / Math.sin(camera.fov * Math.PI / 360) / narrow;
+    controls.target.copy(sphere.center);
+    camera.position.set(1, -1.2, 0.8).normalize().multiplyScalar(distance).add(sphere.center);
+    controls.update();
+    render();
+  }
+
+  function resize() {
+    const width = stage.clientWidth, height = stage.clientHeight;
+    if (!width || !height) return;
+    renderer.setPixelRatio(window.devicePixelRatio || 1);
+    renderer.setSize(width, height, false);
+    camera.aspect = width / height;
+    camera.updateProjectionMatrix();
+    render();
+  }
+
+  function box(name) {
+    const input = figure.querySelector('input[name=' + name + ']');
+    return input ? input.checked : false;
+  }
+
+  function toggle() {
+    suspect.visible = box('suspect');
+    original.visible = box('original');
+    umbilics.visible = box('umbilics');
+    suspectEdges.visible = suspect.visible && box('edges');
+    originalEdges.visible = original.visible && box('edges');
+    if (scene.posed) {
+      const signed = box('signed');
+      suspectGeometry.setAttribute('color', signed ? coloring.signed : coloring.size);
+      figure.querySelector('.legends').classList.toggle('signed', signed);
+    }
+    render();
+  }
+
+  function faceAt(mesh, triangle) {
+    const faces = unpack(mesh.faces, Uint32Array);
+    let number = 0;
+    for (let i = 0; i < faces.length && faces[i + 1] <= triangle; i += 2) number = faces[i];
+    return number;
+  }
+
+  function nameOf(hit) {
+    if (hit.object.userData.text) return hit.object.userData.text;
+    if (hit.object === original) return 'Original, face ' + faceAt(scene.original, hit.faceIndex);
+    const text = 'Suspect, face ' + faceAt(scene.suspect, hit.faceIndex);
+    if (!scene.posed) return text;
+    const corners = [hit.face.a, hit.face.b, hit.face.c];
+    const nearest = corners.reduce((best, i) => {
+      const p = new THREE.Vector3().fromBufferAttribute(suspectGeometry.getAttribute('position'), i);
+      const distance = p.distanceTo(hit.point);
+      return distance < best.distance ? { i: i, distance: distance } : best;
+    }, { i: hit.face.a, distance: Infinity });
+    return text + ', deviation ' + deviation[nearest.i].toPrecision(3) + ' mm';
+  }
+
+  const ray = new THREE.Raycaster();
+  function point(event) {
+    const frame = canvas.getBoundingClientRect();
+    const x = event.clientX - frame.left, y = event.clientY - frame.top;
+    ray.setFromCamera(new THREE.Vector2(2 * x / frame.width - 1, 1 - 2 * y / frame.height), camera);
+    const marks = umbilics.visible ? ray.intersectObjects(glyphs) : [];
+    const surfaces = [suspect, original].filter(mesh => mesh.visible);
+    const hit = marks.concat(event.buttons ? [] : ray.intersectObjects(surfaces))[0];
+    label.hidden = !hit;
+    if (!hit) return;
+    label.textContent = nameOf(hit);
+    label.style.left = Math.min(x + 14, frame.width - 230) + 'px';
+    label.style.top = (y + 14) + 'px';
+  }
+
+  controls.addEventListener('change', render);
+  canvas.addEventListener('mousemove', point);
+  canvas.addEventListener('mouseleave', () => { label.hidden = true; });
+  figure.querySelectorAll('input').forEach(input => input.addEventListener('change', toggle));
+  figure.querySelector('button[name=reset]').addEventListener('click', reset);
+  window.addEventListener('resize', resize);
+
+  resize();
+  toggle();
+  reset();
+})();

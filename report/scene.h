@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include <umbilic/model/display_mesh.h>
+#include <umbilic/similarity/compare.h>
+
+#include <report/color_scale.h>
+
+namespace umbilic {
+
+/// All faces of a model in one triangle mesh, for pictures.
+struct SceneMesh {
+    struct FaceRange {
+        int face = 0;
+        int first_triangle = 0;
+    };
+    std::vector<Vector3> points;
+    std::vector<Vector3> normals;  ///< one per point
+    std::vector<std::array<int, 3>> triangles;
+    std::vector<std::array<int, 2>> edges;  ///< borders of the faces
+    std::vector<FaceRange> faces;           ///< in the order of their triangles
+    std::vector<double> deviation;          ///< signed distance to the other model, mm; empty if there is no pose
+};
+
+/// An isolated umbilic in the picture.
+struct SceneUmbilic {
+    bool of_suspect = false;
+    int number = 0;  ///< from 0, as in the strong test
+    Vector3 point = Vector3::Zero();
+    UmbilicType type = UmbilicType::non_generic;
+    std::vector<Vector3> directions;  ///< unit tangents of the lines of curvature that run into it
+    std::string label;
+};
+
+/// What the pictures show, in the frame and unit of the original.
+struct Scene {
+    SceneMesh original;
+    SceneMesh suspect;
+    /// False if no pose was found: then the suspect stands beside the original, brought to its size.
+    bool posed = false;
+    std::vector<SceneUmbilic> umbilics;
+    ColorScale scale;
+};
+
+/// Brings the suspect's display meshes into the pose that was found and measures them against the original: the values
+/// are exact distances at the vertices, after long edges were split on the surface. Throws Cancelled.
+Scene make_scene(const PreparedModel& original, const std::vector<DisplayMesh>& original_meshes,
+                 const PreparedModel& suspect, const std::vector<DisplayMesh>& suspect_meshes,
+                 const Comparison& comparison, const Progress& progress = {});
+
+/// The scene for the page's viewer, as JSON: arrays of 32-bit little-endian numbers in base64.
+std::string scene_json(const Scene& scene);
+
+}  // namespace umbilic

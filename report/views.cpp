@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <report/views.h>
+
+#include <algorithm>
+#include <array>
+#include <functional>
+
+#include <tbb/parallel_for.h>
+
+#include <report/picture.h>
+#include <report/readable.h>
+
+namespace umbilic {
+
+const Color color_within = {0.13f, 0.40f, 0.67f};
+const Color color_beyond = {0.90f, 0.38f, 0.0f};
+
+namespace {
+
+constexpr int width = 640;
+constexpr int height = 420;
+constexpr Color grey = {0.80f, 0.82f, 0.84f};
+constexpr Color edge_color = {0.22f, 0.24f, 0.27f};
+constexpr double edge_width = 1.1;
+constexpr double glyph_radius = 5.0;
+/// How far an umbilic's disc stands before its white ring, relative to the diagonal.
+constexpr double ring_depth = 1e-4;
+constexpr double node_radius = 2.6;
+
+BoundingBox box_of(const std::vector<Vector3>& points) {
+    BoundingBox box;
+    for (const Vector3& point : points) box.add(point);
+    return box;
+}
+
+void draw(Picture& picture, const SceneMesh& mesh, const std::vector<Color>& colors) {
+    picture.add_surface(mesh.points, mesh.normals, mesh.triangles, colors);
+    for (const auto& [a, b] : mesh.edges) picture.add_line(mesh.points[a], mesh.points[b], edge_color, edge_width);
+}
+
+/// The pictures, drawn in parallel, in order.
+std::vector<View> drawn(std::size_t count, const std::function<View(std::size_t)>& draw_one) {
+    std::vector<View> views(count);
+    tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) { views[i] = draw_one(i); });
+    return views;
+}
+
+std::vector<Color> grey_for(const SceneMesh& mesh) {
+    return std::vector<Color>(mesh.points.size(), grey);
+}
+
+}  // namespace
+
+std::vector<View> deviation_views(const Scene& scene) {
+    if (!scene.posed) return {};
+    std::vector<Color> colors;
+    for (const double deviation : scene.suspect.deviation) colors.push_back(scene.scale.of_size(deviation));
+    const BoundingBox box = box_of(scene.suspect.points);
+    const std::array<std::pair<const char*, ViewAxes>, 4> sides = {
+        {{"Isometric", isometric_view()}, {"Front", front_view()}, {"Side", side_view()}, {"Top", top_view()}}};
+    return drawn(sides.size(), [&](std::size_t i) {
+        Picture picture(sides[i].second, box, width, height);
+        draw(picture, scene.suspect, colors);
+        for (const SceneUmbilic& umbilic : scene.umbilics) {
+            if (!umbilic.of_suspect) continue;
+            picture.add_disc(umbilic.point, {1.0f, 1.0f, 1.0f}, glyph_radius + 1.5);
+            picture.add_disc(umbilic.point + ring_depth * box.diagonal() * Vector3(sides[i].second.row(2)),
+                             color_of(umbilic.type), glyph_radius);
+        }
+        return View{sides[i].first, picture.png()};
+    });
+}
+
+std::vector<View> model_views(const Scene& scene, const SimilarityTransform& suspect_original) {
+    SceneMesh suspect = scene.suspect;
+    for (Vector3& point : suspect.points) point = suspect_original.apply(point);
+    for (Vector3& normal : suspect.normals) normal = suspect_original.apply_direction(normal);
+    return drawn(2, [&](std::size_t i) {
+        const SceneMesh& mesh = i == 0 ? scene.original : suspect;
+        const BoundingBox box = box_of(mesh.points);
+        Picture picture(isometric_view(), box, width, height);
+        draw(picture, mesh, grey_for(mesh));
+        const Vector3 size = box.empty() ? Vector3(Vector3::Zero()) : Vector3(box.high - box.low);
+        return View{std::string(i == 0 ? "Original" : "Suspect") + ", " + readable(size.x(), 4) + " × " +
+                        readable(size.y(), 4) + " × " + readable(size.z(), 4) + " mm",
+                    picture.png()};
+    });
+}
+
+std::vector<View> test_views(const Scene& scene, const Assessment& assessment) {
+    struct Test {
+        const char* name;
+        const LocalSimilarity* similarity;
+        const char* unit;
+        std::function<std::optional<double>(const NodeComparison&)> value;
+    };
+    const std::array<Test, 4> tests = {{
+        {"Distance", &assessment.distance, "mm", [](const NodeComparison& node) { return node.distance; }},
+        {"Greater principal curvature", &assessment.kappa_max, "1/mm",
+         [](const NodeComparison& node) { return node.kappa_max; }},
+        {"Smaller principal curvature", &assessment.kappa_min, "1/mm",
+         [](const NodeComparison& node) { return node.kappa_min; }},
+        {"Principal direction", &assessment.direction, "rad",
+         [](const NodeComparison& node) { return node.direction; }},
+    }};
+    const auto& nodes = assessment.suspect_on_original.nodes;
+    if (!scene.posed || nodes.empty()) return {};
+    const BoundingBox box = box_of(scene.suspect.points);
+    return drawn(tests.size(), [&](std::size_t i) {
+        const Test& test = tests[i];
+        Picture picture(isometric_view(), box, width, height);
+        draw(picture, scene.suspect, grey_for(scene.suspect));
+        int beyond = 0, count = 0;
+        for (const NodeComparison& node : nodes) {
+            const std::optional<double> value = test.value(node);
+            if (!value) continue;
+            const bool within = *value <= test.similarity->tolerance;
+            ++count;
+            beyond += within ? 0 : 1;
+            picture.add_disc(node.point, within ? color_within : color_beyond, node_radius * (within ? 0.5 : 1.0));
+        }
+        return View{std::string(test.name) + ": " + readable_count(beyond) + " of " + readable_count(count) +
+                        " nodes beyond " + readable(test.similarity->tolerance, test.unit),
+                    picture.png()};
+    });
+}
+
+}  // namespace umbilic

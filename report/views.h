@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <report/scene.h>
+
+namespace umbilic {
+
+/// A picture with its caption.
+struct View {
+    std::string caption;
+    std::string png;
+};
+
+/// The suspect in the pose found, coloured by the size of its deviation, with umbilics, from four sides.
+std::vector<View> deviation_views(const Scene& scene);
+
+/// Each model alone, as its file has it: original, suspect.
+std::vector<View> model_views(const Scene& scene, const SimilarityTransform& suspect_original);
+
+/// One picture a test (distance, kappa_max, kappa_min, direction): nodes within the tolerance and beyond.
+std::vector<View> test_views(const Scene& scene, const Assessment& assessment);
+
+/// Colours of the nodes in test_views().
+extern const Color color_within;
+extern const Color color_beyond;
+
+}  // namespace umbilic
