@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <stdexcept>
+
+namespace umbilic {
+
+// Exit statuses of the command.
+inline constexpr int exit_done = 0;            ///< whatever the verdict
+inline constexpr int exit_wrong_use = 2;       ///< words of the command line
+inline constexpr int exit_bad_input = 3;       ///< an input could not be read or holds nothing to compare
+inline constexpr int exit_not_finished = 4;    ///< the work could not be finished
+inline constexpr int exit_level_reached = 10;  ///< --fail-on, and the verdict reached that level
+
+/// The command line asks for what cannot be.
+class WrongUse : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+}  // namespace umbilic

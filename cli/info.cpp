@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <memory>
+#include <string>
+
+#include <cli/commands.h>
+#include <cli/console.h>
+#include <cli/exit_status.h>
+#include <cli/loading.h>
+#include <report/json.h>
+#include <report/readable.h>
+
+namespace umbilic {
+
+namespace {
+
+std::string summary(const Model& model) {
+    const Source& source = model.source;
+    const Vector3 size = model.box.empty() ? Vector3(Vector3::Zero()) : Vector3(model.box.high - model.box.low);
+    std::string faces = readable_count(model.faces.size());
+    if (model.declared_faces >= 0) faces += " of " + readable_count(model.declared_faces) + " that the file declares";
+    return bold(printable(source.path)) + "\n" +
+           facts({{"Format", source.format},
+                  {"SHA-256", source.sha256},
+                  {"Bytes", readable_count(source.bytes)},
+                  {"Unit", source.unit + (source.unit == "mm" ? std::string()
+                                                              : " (1 = " + readable(source.unit_in_mm, 8) + " mm)")},
+                  {"Size", readable(size.x()) + " × " + readable(size.y()) + " × " + readable(size.z()) + " mm"},
+                  {"Solids", readable_count(model.solids.size())},
+                  {"Shells", readable_count(model.shells)},
+                  {"Faces", faces},
+                  {"Area", readable(model.area, "mm²", 8)},
+                  {"Volume", model.solids.empty() ? std::string() : readable(model.volume, "mm³", 8)},
+                  {"Valid", model.valid ? "yes" : "no"},
+                  {"Skipped", model.skipped.empty() ? std::string() : readable_count(model.skipped.size())},
+                  {"Repaired", model.repaired.empty() ? std::string() : readable_count(model.repaired.size())}});
+}
+
+std::string face_table(const Model& model) {
+    std::vector<std::vector<std::string>> rows;
+    for (const Face& face : model.faces) {
+        const NurbsSurface& surface = face.surface;
+        rows.push_back({std::to_string(face.number), name(face.kind),
+                        std::to_string(surface.u_degree()) + "×" + std::to_string(surface.v_degree()),
+                        std::to_string(surface.u_pole_count()) + "×" + std::to_string(surface.v_pole_count()),
+                        surface.rational() ? "yes" : "no", face.region.whole_domain() ? "no" : "yes",
+                        face.reversed ? "reversed" : "forward", readable(face.area, 6), printable(face.name)});
+    }
+    return table({"face", "surface", "degree", "poles", "rational", "trimmed", "orientation", "area mm²", "name"}, rows,
+                 {0, 2, 3, 7});
+}
+
+}  // namespace
+
+void add_info(CLI::App& application, Session& session, Command& command) {
+    auto* const subcommand = application.add_subcommand("info", "Units, solids, faces, area, volume, what was skipped");
+    const auto path = std::make_shared<std::string>();
+    subcommand->add_option("FILE", *path, "STEP, IGES or BREP file")->required();
+    add_common_options(*subcommand, session);
+    subcommand->callback([&session, &command, path] {
+        command = [&session, path] {
+            const ReadResult read = load(session, *path, {}, session.progress);
+            clear_progress_bar();
+            print(session, summary(read.model) + "\n" + face_table(read.model));
+            write_json(session, info_json(read.model));
+            return exit_done;
+        };
+    });
+}
+
+}  // namespace umbilic

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <cli/match_options.h>
+
+#include <charconv>
+#include <cmath>
+
+#include <cli/given_poses.h>
+
+namespace umbilic {
+
+namespace {
+
+bool read_number(std::string_view text, double& value) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
+}
+
+/// "auto", "fixed" or "LOW:HIGH".
+ScaleChoice scale_from(const std::string& text) {
+    ScaleChoice scale;
+    if (text == "auto") return scale;
+    if (text == "fixed") {
+        scale.kind = ScaleChoice::Kind::fixed;
+        return scale;
+    }
+    scale.kind = ScaleChoice::Kind::range;
+    const auto colon = text.find(':');
+    const std::string_view view = text;
+    const bool understood = colon != std::string::npos && read_number(view.substr(0, colon), scale.low) &&
+                            read_number(view.substr(colon + 1), scale.high) && 0.0 < scale.low &&
+                            scale.low <= scale.high;
+    if (!understood) {
+        throw CLI::ValidationError("--scale",
+                                   "'" + text + "' is neither auto, fixed nor LOW:HIGH with 0 < LOW <= HIGH");
+    }
+    return scale;
+}
+
+}  // namespace
+
+void add_match_options(CLI::App& subcommand, MatchWords& words) {
+    subcommand.add_option("ORIGINAL", words.original, "STEP, IGES or BREP file")->required();
+    subcommand.add_option("SUSPECT", words.suspect, "STEP, IGES or BREP file that may be a copy")->required();
+    const char* const group = "Pose";
+    subcommand.add_option("--method", words.match.method, "How poses are proposed: auto, umbilics or moments")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, MethodChoice>{{"auto", MethodChoice::automatic},
+                                                                                {"umbilics", MethodChoice::umbilics},
+                                                                                {"moments", MethodChoice::moments}})
+                        .description(""))
+        ->type_name("METHOD")
+        ->group(group);
+    subcommand
+        .add_option_function<std::string>(
+            "--scale", [&words](const std::string& text) { words.match.scale = scale_from(text); },
+            "What is known of the scale, suspect to original: auto, fixed (it is 1) or LOW:HIGH")
+        ->type_name("SCALE")
+        ->group(group);
+    subcommand.add_option("--mirror", words.match.mirror, "Whether mirror images are tried: auto or never")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, MirrorChoice>{{"auto", MirrorChoice::automatic},
+                                                                                {"never", MirrorChoice::never}})
+                        .description(""))
+        ->type_name("MIRROR")
+        ->group(group);
+    subcommand.add_option("--scope", words.match.scope, "Whole models or parts: auto, global or partial")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, ScopeChoice>{{"auto", ScopeChoice::automatic},
+                                                                               {"global", ScopeChoice::global},
+                                                                               {"partial", ScopeChoice::partial}})
+                        .description(""))
+        ->type_name("SCOPE")
+        ->group(group);
+    subcommand
+        .add_option("--initial", words.initial_path,
+                    "JSON file with a pose to start from (scale, rotation, translation)")
+        ->type_name("FILE")
+        ->group(group);
+    subcommand
+        .add_option("--pairs", words.pairs_path,
+                    "CSV file with corresponding points: x, y, z on the original, x, y, z on the suspect")
+        ->type_name("FILE")
+        ->group(group);
+    const char* const tolerances = "Tolerances";
+    const auto add = [&](const char* names, auto& value, const char* meaning, const CLI::Validator& check) {
+        subcommand.add_option(names, value, meaning)->check(check)->group(tolerances);
+    };
+    add("--match_tolerance", words.match.tolerance, "Distance within which a sample lies on the other model, mm",
+        CLI::PositiveNumber);
+    add("--umbilic_invariant_tolerance", words.match.umbilic_invariant_tolerance,
+        "Difference of the invariants of two umbilics that may correspond", CLI::PositiveNumber);
+    add("--samples", words.features.samples.count, "Points spread over each model", CLI::Range(1, 10'000'000));
+    add("--umbilic_resolution", words.features.umbilics.resolution,
+        "Side of the smallest box of the umbilic search, relative to the domain", CLI::PositiveNumber);
+    add("--umbilic_boxes", words.features.umbilics.boxes_per_patch, "Boxes the umbilic search may use on a patch",
+        CLI::PositiveNumber);
+    add("--umbilic_margin", words.features.umbilics.generic_margin,
+        "Relative distance from a dividing curve within which a type is non-generic", CLI::NonNegativeNumber);
+}
+
+void read_given_poses(MatchWords& words) {
+    if (!words.initial_path.empty()) words.match.initial = read_transform(words.initial_path);
+    if (!words.pairs_path.empty()) words.match.pairs = read_point_pairs(words.pairs_path);
+}
+
+}  // namespace umbilic
