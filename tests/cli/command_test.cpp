@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The command as its users see it: words in, exit status, text and files out.
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "run_command.h"
+
+namespace umbilic {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+class Command : public testing::Test {
+protected:
+    void SetUp() override {
+        const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
+        folder_ = fs::path(testing::TempDir()) / ("umbilic_" + std::string(test->name()) + std::to_string(getpid()));
+        fs::remove_all(folder_);
+        fs::create_directory(folder_);
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+    std::string make_file(const std::string& name, const std::string& text) const {
+        std::ofstream(folder_ / name, std::ios::binary) << text;
+        return path(name);
+    }
+    std::string read(const std::string& name) const {
+        std::ostringstream text;
+        text << std::ifstream(folder_ / name, std::ios::binary).rdbuf();
+        return text.str();
+    }
+    /// Names of everything in the test's folder, hidden files included, in order.
+    std::vector<std::string> entries() const {
+        std::vector<std::string> names;
+        for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
+            names.push_back(fs::relative(entry.path(), folder_).string());
+        }
+        std::sort(names.begin(), names.end());
+        return names;
+    }
+
+    fs::path folder_;
+};
+
+/// One line on standard error that starts with "umbilic: " and names what it is about.
+testing::AssertionResult is_one_line(const CommandResult& result, const std::string& about) {
+    const bool good = result.error.rfind("umbilic: ", 0) == 0 && result.error.back() == '\n' &&
+                      std::count(result.error.begin(), result.error.end(), '\n') == 1 &&
+                      result.error.find(about) != std::string::npos;
+    if (good) return testing::AssertionSuccess();
+    return testing::AssertionFailure() << "standard error is: " << result.error;
+}
+
+TEST_F(Command, TellsItsVersion) {
+    const CommandResult result = run_umbilic({"--version"});
+    EXPECT_EQ(result.status, 0);
+    EXPECT_EQ(result.output.rfind("umbilic ", 0), 0u);
+    EXPECT_NE(result.output.find("OpenCASCADE 7."), std::string::npos);
+}
+
+TEST_F(Command, HelpNamesEveryOptionOnce) {
+    const CommandResult result = run_umbilic({"compare", "--help"});
+    EXPECT_EQ(result.status, 0);
+    for (const char* const option :
+         {"--method", "--scale", "--mirror", "--scope", "--initial", "--pairs", "--algorithm", "--json", "--threads",
+          "--quiet", "--verbose", "--seed", "--report", "--fail-on", "--distance", "--kappa", "--direction",
+          "--umbilic_distance", "--cell"}) {
+        EXPECT_NE(result.output.find(option), std::string::npos) << option;
+    }
+}
+
+TEST_F(Command, WrongUseIsTwo) {
+    const std::string bottle = model_path("bottle.step");
+    const std::vector<std::vector<std::string>> wrong = {
+        {},
+        {"frobnicate"},
+        {"info"},
+        {"info", bottle, "--no-such-option"},
+        {"info", bottle, "--threads", "many"},
+        {"info", bottle, "--threads", "-1"},
+        {"info", bottle, "--quiet", "--verbose"},
+        {"umbilics", bottle, "--tolerance", "-0.1"},
+        {"umbilics", bottle, "--face", "0"},
+        {"compare", bottle},
+        {"compare", bottle, bottle, "--scale", "2:1"},
+        {"compare", bottle, bottle, "--scale", "big"},
+        {"compare", bottle, bottle, "--scale", "nan:1"},
+        {"compare", bottle, bottle, "--method", "magic"},
+        {"compare", bottle, bottle, "--algorithm", "3"},
+        {"compare", bottle, bottle, "--distance", "0"},
+        {"compare", bottle, bottle, "--cell", "2"},
+        {"compare", bottle, bottle, "--fail-on", "always"},
+    };
+    for (const auto& words : wrong) {
+        const CommandResult result = run_umbilic(words);
+        const std::string last = words.empty() ? "nothing" : words.back();
+        EXPECT_EQ(result.status, 2) << last;
+        EXPECT_TRUE(is_one_line(result, "")) << last;
+        EXPECT_TRUE(result.output.empty()) << last;
+    }
+}
+
+TEST_F(Command, BadInputIsThree) {
+    const std::vector<std::string> bad = {path("missing.step"),
+                                          folder_.string(),
+                                          make_file("empty.step", ""),
+                                          make_file("prose.step", "This is no CAD file.\n"),
+                                          make_file("noise.igs", std::string(4096, '\xfe')),
+                                          model_path("malformed/truncated.step"),
+                                          model_path("malformed/no_face.step")};
+    for (const std::string& input : bad) {
+        const CommandResult result = run_umbilic({"info", input});
+        EXPECT_EQ(result.status, 3) << input << ": " << result.error;
+        EXPECT_TRUE(is_one_line(result, fs::path(input).filename().string())) << input;
+        EXPECT_TRUE(result.output.empty()) << input;
+    }
+    const CommandResult second = run_umbilic({"compare", model_path("bottle.step"), path("missing.step")});
+    EXPECT_EQ(second.status, 3);
+    EXPECT_TRUE(is_one_line(second, "missing.step"));
+}
+
+TEST_F(Command, FilesThatMayNotBeReadAreThree) {
+    if (geteuid() == 0) GTEST_SKIP() << "root may read everything";
+    const std::string secret = make_file("secret.step", "ISO-10303-21;");
+    fs::permissions(secret, fs::perms::none);
+    const CommandResult result = run_umbilic({"info", secret});
+    EXPECT_EQ(result.status, 3);
+    EXPECT_TRUE(is_one_line(result, "secret.step"));
+}
+
+TEST_F(Command, GivenPosesThatAreNoneAreThree) {
+    const std::string bottle = model_path("bottle.step");
+    const std::vector<std::string> transforms = {
+        "",
+        "{}",
+        "[1]",
+        R"({"scale": "big"})",
+        R"({"scale": -1, "rotation": [[1,0,0],[0,1,0],[0,0,1]], "translation": [0,0,0]})",
+        R"({"scale": 1, "rotation": [[1,0,0],[0,1,0],[0,0,-1]], "translation": [0,0,0]})",
+        R"({"scale": 1, "rotation": [[2,0,0],[0,1,0],[0,0,1]], "translation": [0,0,0]})"};
+    for (const std::string& text : transforms) {
+        const CommandResult result = run_umbilic({"match", bottle, bottle, "--initial", make_file("t.json", text)});
+        EXPECT_EQ(result.status, 3) << text;
+        EXPECT_TRUE(is_one_line(result, "t.json")) << text;
+    }
+    for (const char* const text :
+         {"", "x,y,z\n", "1,2,3,4,5,6\n1,2,3,4,5\n", "1,2,3,4,5,6\n1,2,3,4,5,six\n", "1,2,3,4,5,6\n1,2,3,4,5,nan\n"}) {
+        const CommandResult result = run_umbilic({"match", bottle, bottle, "--pairs", make_file("p.csv", text)});
+        EXPECT_EQ(result.status, 3) << text;
+        EXPECT_TRUE(is_one_line(result, "p.csv")) << text;
+    }
+}
+
+TEST_F(Command, InfoGivesTextAndJson) {
+    const CommandResult text = run_umbilic({"info", model_path("bracket.step")});
+    EXPECT_EQ(text.status, 0);
+    EXPECT_NE(text.output.find("cylinder"), std::string::npos);
+    EXPECT_EQ(text.output.find('\033'), std::string::npos);  // no colours where no terminal is
+    EXPECT_TRUE(text.error.empty()) << text.error;
+    const CommandResult structured = run_umbilic({"info", model_path("bracket.step"), "--json", "-"});
+    const json result = json::parse(structured.output);
+    EXPECT_EQ(result.at("schema"), "umbilic.info/1");
+    EXPECT_EQ(result.at("faces").size(), 19u);
+    EXPECT_EQ(result.at("input").at("solids"), 1);
+    const CommandResult quiet = run_umbilic({"info", model_path("bracket.step"), "--quiet", "--json", path("i.json")});
+    EXPECT_TRUE(quiet.output.empty());
+    EXPECT_EQ(json::parse(read("i.json")), result);
+    EXPECT_EQ(entries(), std::vector<std::string>{"i.json"});
+}
+
+TEST_F(Command, UmbilicsOfOneFaceOrAll) {
+    const std::string file = model_path("monge_umbilics.step");
+    const CommandResult all = run_umbilic({"umbilics", file, "--json", "-"});
+    ASSERT_EQ(all.status, 0) << all.error;
+    const json result = json::parse(all.output);
+    EXPECT_EQ(result.at("schema"), "umbilic.umbilics/1");
+    EXPECT_EQ(result.at("faces").at(0).at("umbilics").size(), 5u);
+    const CommandResult one = run_umbilic({"umbilics", file, "--face", "1", "--json", "-"});
+    EXPECT_EQ(json::parse(one.output), result);
+    const CommandResult none = run_umbilic({"umbilics", file, "--face", "99"});
+    EXPECT_EQ(none.status, 2);
+    EXPECT_TRUE(is_one_line(none, "no face 99"));
+    const CommandResult text = run_umbilic({"umbilics", file});
+    EXPECT_NE(text.output.find("monstar"), std::string::npos);
+}
+
+TEST_F(Command, JsonThatDoesNotArriveIsFour) {
+    if (!fs::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
+    for (const std::string& target : {std::string("/dev/full"), path("missing/i.json"), folder_.string()}) {
+        const CommandResult result = run_umbilic({"info", model_path("bracket.step"), "--quiet", "--json", target});
+        EXPECT_EQ(result.status, 4) << target;
+        EXPECT_TRUE(is_one_line(result, target)) << target;
+    }
+    EXPECT_TRUE(entries().empty());
+}
+
+TEST_F(Command, CompareWritesAWholeReport) {
+    const CommandResult result = run_umbilic({"compare", model_path("bottle.step"), model_path("bottle_suspect.igs"),
+                                              "--report", path("report"), "--json", path("same.json")});
+    ASSERT_EQ(result.status, 0) << result.error;
+    EXPECT_EQ(entries(), (std::vector<std::string>{"report", "report/aligned.step", "report/deviation.csv",
+                                                   "report/report.html", "report/result.json", "same.json"}));
+    EXPECT_EQ(read("report/result.json"), read("same.json"));
+    const json compared = json::parse(read("same.json"));
+    EXPECT_EQ(compared.at("schema"), "umbilic.compare/1");
+    EXPECT_EQ(compared.at("verdict").at("level"), "strong");
+    EXPECT_NEAR(compared.at("alignment").at("scale").get<double>(), 1.0 / 0.37, 1e-5);
+    // The plain answer comes first.
+    EXPECT_EQ(result.output.rfind(compared.at("answer").at("text").get<std::string>(), 0), 0u);
+    EXPECT_NE(result.output.find(path("report/report.html")), std::string::npos);
+    EXPECT_NE(read("report/report.html").find("bottle_suspect.igs"), std::string::npos);
+    // What was written as aligned lies where the original is.
+    const CommandResult again =
+        run_umbilic({"match", model_path("bottle.step"), path("report/aligned.step"), "--json", "-"});
+    const json pose = json::parse(again.output).at("alignment");
+    EXPECT_NEAR(pose.at("scale").get<double>(), 1.0, 1e-6);
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(pose.at("translation").at(i).get<double>(), 0.0, 1e-3);
+}
+
+TEST_F(Command, FailOnTellsTheLevelByTheStatus) {
+    const std::string bottle = model_path("bottle.step");
+    EXPECT_EQ(run_umbilic({"compare", bottle, model_path("bottle_suspect.igs"), "--fail-on", "weak"}).status, 10);
+    EXPECT_EQ(run_umbilic({"compare", bottle, model_path("bottle_other.step"), "--fail-on", "weak"}).status, 0);
+    EXPECT_EQ(run_umbilic({"compare", bottle, model_path("bottle_other.step"), "--fail-on", "none"}).status, 10);
+}
+
+TEST_F(Command, GivenPosesAreUsed) {
+    const CommandResult found =
+        run_umbilic({"match", model_path("blade.step"), model_path("blade_moved.igs"), "--json", path("pose.json")});
+    ASSERT_EQ(found.status, 0) << found.error;
+    const CommandResult again = run_umbilic({"match", model_path("blade.step"), model_path("blade_moved.igs"),
+                                             "--initial", path("pose.json"), "--json", "-"});
+    const json result = json::parse(again.output);
+    EXPECT_EQ(result.at("parameters").at("initial").at("origin"), "user");
+    EXPECT_EQ(result.at("schema"), "umbilic.match/1");
+}
+
+TEST_F(Command, SameResultWhateverTheThreads) {
+    const auto result_with = [&](const char* threads) {
+        const CommandResult run = run_umbilic({"compare", model_path("bottle.step"), model_path("bottle_suspect.igs"),
+                                               "--threads", threads, "--json", "-"});
+        json result = json::parse(run.output);
+        result.erase("timing");
+        return result.dump();
+    };
+    EXPECT_EQ(result_with("1"), result_with("2"));
+}
+
+TEST_F(Command, InterruptLeavesNothingBehind) {
+    // Interrupted at several moments; a run that was faster than the signal must be whole.
+    for (const int milliseconds : {5, 50, 200, 400, 800}) {
+        const std::string report = "report" + std::to_string(milliseconds);
+        const CommandResult result =
+            run_umbilic({"compare", model_path("bottle.step"), model_path("bottle_suspect.igs"), "--report",
+                         path(report), "--json", path(report + ".json")},
+                        [&](int process) {
+                            std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+                            kill(process, SIGINT);
+                        });
+        const bool before_handler = result.status == -1;  // the signal came before the program could take it
+        if (result.status == 0) {
+            EXPECT_TRUE(fs::exists(path(report + "/report.html")));
+            fs::remove_all(path(report));
+            fs::remove(path(report + ".json"));
+        } else if (!before_handler) {
+            EXPECT_EQ(result.status, 4) << result.error;
+            EXPECT_TRUE(is_one_line(result, "stopped; nothing was written"));
+        }
+        EXPECT_TRUE(entries().empty()) << milliseconds << " ms: " << entries().front();
+    }
+}
+
+TEST_F(Command, ReportsThatCannotBeWrittenAreFour) {
+    for (const std::string& target : {std::string("/dev/full"), make_file("file", "text")}) {
+        const CommandResult result =
+            run_umbilic({"compare", model_path("bottle.step"), model_path("bottle_suspect.igs"), "--report", target});
+        EXPECT_EQ(result.status, 4) << target;
+        EXPECT_TRUE(is_one_line(result, target)) << target;
+    }
+    EXPECT_EQ(entries(), std::vector<std::string>{"file"});
+    EXPECT_EQ(read("file"), "text");
+}
+
+}  // namespace
+}  // namespace umbilic
