@@ -79,11 +79,12 @@ BoundaryPoint boundary_point(const NurbsSurface& surface, const TrimmingRegion& 
     return point;
 }
 
-std::vector<double> smooth_pieces(const TrimmingRegion& region, const TrimmingCurve& curve) {
+std::vector<double> smooth_pieces(const NurbsSurface& surface, const TrimmingRegion& region,
+                                  const TrimmingCurve& curve) {
     std::vector<double> result = curve.curve.knots().breaks();
     const std::vector<double> knots = result;
-    const auto crossings = [&](const ParameterMap& map, int axis) {
-        for (const double value : map.breaks())
+    const auto crossings = [&](const std::vector<double>& native_values, int axis) {
+        for (const double value : native_values)
             for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
                 double low = knots[i], high = knots[i + 1];
                 const double at_low = curve.curve.value(low)[axis] - value;
@@ -97,8 +98,16 @@ std::vector<double> smooth_pieces(const TrimmingRegion& region, const TrimmingCu
                 result.push_back(low);
             }
     };
-    crossings(region.u_map(), 0);
-    crossings(region.v_map(), 1);
+    // Where the map bends, and where the surface's second derivatives jump.
+    const auto lines = [](const ParameterMap& map, const KnotVector& surface_knots) {
+        std::vector<double> values = map.breaks();
+        for (std::size_t i = 1; i + 1 < surface_knots.breaks().size(); ++i)
+            if (surface_knots.continuity(static_cast<int>(i)) < 2)
+                values.push_back(map.native(surface_knots.breaks()[i]));
+        return values;
+    };
+    crossings(lines(region.u_map(), surface.u_knots()), 0);
+    crossings(lines(region.v_map(), surface.v_knots()), 1);
     std::sort(result.begin(), result.end());
     result.erase(std::unique(result.begin(), result.end()), result.end());
     return result;

@@ -21,8 +21,10 @@ BoundaryPoint boundary_point(const NurbsSurface& surface, const TrimmingRegion& 
                              double t);
 
 /// Parameters at which the image of a trimming curve may lack a second derivative: breaks of the curve and crossings
-/// with the breaks of the angular maps, both ends included, increasing.
-std::vector<double> smooth_pieces(const TrimmingRegion& region, const TrimmingCurve& curve);
+/// with the breaks of the angular maps and with knot lines of the surface where it is less than C2, both ends included,
+/// increasing.
+std::vector<double> smooth_pieces(const NurbsSurface& surface, const TrimmingRegion& region,
+                                  const TrimmingCurve& curve);
 
 /// Model of the piece [low, high] of a trimming curve. Its second derivative is sampled; the error is twice the
 /// greatest difference from the mean of the samples.

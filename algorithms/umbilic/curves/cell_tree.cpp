@@ -233,7 +233,7 @@ void CellTree::add_loops(int face, Growth& growth) const {
             cell.box.high[1] = 0.0;
             const std::vector<LocalPatch> flat = flat_images(source.surface, source.region, curve, origin);
             const std::vector<double> breaks =
-                flat.empty() ? smooth_pieces(source.region, curve) : curve.curve.knots().breaks();
+                flat.empty() ? smooth_pieces(source.surface, source.region, curve) : curve.curve.knots().breaks();
             for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
                 const TreePatch::Kind kind = flat.empty() ? TreePatch::Kind::curve : TreePatch::Kind::flat_curve;
                 growth.patches.push_back({kind,
