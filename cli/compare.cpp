@@ -59,6 +59,7 @@ int run_compare(const Session& session, CompareWords& words) {
     options.tolerances = words.tolerances;
     options.algorithm = words.algorithm;
     const bool with_report = !words.report.empty();
+    if (with_report) check_report_folder(words.report);
     const Progress& progress = session.progress;
     ReadOptions read;
     read.display_meshes = with_report;

@@ -88,11 +88,17 @@ void write_file(const std::string& path, const std::string& contents) {
     if (error) fail(path, error.value());
 }
 
+void check_report_folder(const std::string& folder) {
+    const fs::path target = resolved(folder, folder);
+    std::error_code error;
+    if (fs::exists(target, error) && !fs::is_directory(target, error)) fail(folder, ENOTDIR);
+}
+
 void write_report(const std::string& folder, const ReportInput& input, const Json& result, const Progress& progress) {
+    check_report_folder(folder);
     const fs::path target = resolved(folder, folder);
     std::error_code error;
     const bool exists = fs::exists(target, error);
-    if (exists && !fs::is_directory(target, error)) fail(folder, ENOTDIR);
     fs::create_directories(target.parent_path(), error);
     if (error) fail(folder, error.value());
 

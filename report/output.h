@@ -11,6 +11,10 @@ namespace umbilic {
 /// terminal) is written to directly. Throws NumericFailure, naming the file, if it cannot be written.
 void write_file(const std::string& path, const std::string& contents);
 
+/// Throws NumericFailure, naming it, if something that is not a folder stands where a report shall go: told before
+/// hours of work, not after.
+void check_report_folder(const std::string& folder);
+
 /// Makes the folder and writes report.html, result.json, deviation.csv and, if a pose was found, aligned.step (the
 /// suspect in that pose). They are assembled beside the folder and moved there at the end: an error or a cancel leaves
 /// nothing. Other files in the folder are left alone. `result` is the JSON of compare_json(). Throws NumericFailure,

@@ -20,7 +20,10 @@ namespace {
 constexpr int width = 640;
 constexpr int height = 420;
 constexpr Color grey = {0.80f, 0.82f, 0.84f};
-constexpr Color edge_color = {0.22f, 0.24f, 0.27f};
+constexpr Color dark_edge = {0.22f, 0.24f, 0.27f};
+constexpr Color light_edge = {0.62f, 0.60f, 0.66f};
+/// Below this brightness (sum of red, green and blue) a surface gets light edges.
+constexpr float dark_surface = 0.9f;
 constexpr double edge_width = 1.1;
 constexpr double glyph_radius = 5.0;
 /// How far an umbilic's disc stands before its white ring, relative to the diagonal.
@@ -35,7 +38,10 @@ BoundingBox box_of(const std::vector<Vector3>& points) {
 
 void draw(Picture& picture, const SceneMesh& mesh, const std::vector<Color>& colors) {
     picture.add_surface(mesh.points, mesh.normals, mesh.triangles, colors);
-    for (const auto& [a, b] : mesh.edges) picture.add_line(mesh.points[a], mesh.points[b], edge_color, edge_width);
+    for (const auto& [a, b] : mesh.edges) {
+        const bool on_dark = colors[a][0] + colors[a][1] + colors[a][2] < dark_surface;
+        picture.add_line(mesh.points[a], mesh.points[b], on_dark ? light_edge : dark_edge, edge_width);
+    }
 }
 
 /// The pictures, drawn in parallel, in order.
