@@ -204,14 +204,18 @@ Refinement refine(const Ground& original, std::span<const WeightedPoint> points,
             force ? std::max(forced_shrink * relative_cutoff, close_cutoff) : tukey * quartile_to_deviation * quartile;
         const double next_cutoff = std::max(std::min(wanted, relative_cutoff), least_cutoff);
 
+        const bool settled = !force && next_cutoff >= forced_shrink * relative_cutoff;
+        // The new cut-off holds for this step already: a start that is right must not be pulled away by foreign
+        // material once.
+        relative_cutoff = next_cutoff;
+        result.cutoff = relative_cutoff * length;
+        for (Foot& foot : feet) foot.used = foot.used && std::abs(foot.residual) <= result.cutoff;
         const NormalEquations equations = normal_equations(points, feet, result.cutoff, result.radius);
         result.share = equations.weight / total;
         if (!(equations.weight > 0.0)) return result;
         result.rms = std::sqrt(equations.square / equations.weight);
         result.normal_matrix = equations.unweighted;
         result.scale_deviation = scale_deviation(equations) / result.radius;
-        const bool settled = !force && next_cutoff >= forced_shrink * relative_cutoff;
-        relative_cutoff = next_cutoff;
 
         Vector7 step = solve(equations, free_scale);
         const double excess = std::max({step.head<3>().norm() / (longest_turn * result.radius),
