@@ -21,6 +21,7 @@ struct ReportInput {
     const Comparison& comparison;
     const Timing& timing;      ///< as for compare_json()
     std::string command_line;  ///< that computes the same again
+    std::string suspect_file;  ///< where the suspect's bytes can be read; empty: at its source's path
 };
 
 /// The report as one HTML page that needs no other file and no network: answer, verdict with its evidence, exhibits,

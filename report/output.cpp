@@ -112,7 +112,9 @@ void write_report(const std::string& folder, const ReportInput& input, const Jso
     std::future<void> aligned;
     if (input.comparison.alignment.status != AlignmentStatus::not_found) {
         aligned = std::async(std::launch::async, [&] {
-            write_transformed_step(input.suspect.model.source.path, input.comparison.alignment.original_suspect,
+            const std::string& suspect_file =
+                input.suspect_file.empty() ? input.suspect.model.source.path : input.suspect_file;
+            write_transformed_step(suspect_file, input.comparison.alignment.original_suspect,
                                    assembled.path() / "aligned.step");
         });
     }

@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Umbilic tells whether a CAD model, or a piece of it, is a copy of another one.
+
+    import umbilic
+    result = umbilic.compare("bottle.step", "suspect.igs")
+    print(result.answer.text)
+
+Models are paths (STEP, IGES, BREP), FreeCAD shapes (`Part.Shape`) or models read before (`umbilic.read`). Lengths are
+millimetres, angles radians, curvatures 1/mm with the sign kappa = -II/I. Long calls release the GIL and take
+`progress=callable(fraction, text)`; they stop with `umbilic.Cancelled` when it returns False. The package needs neither
+FreeCAD nor a window.
+"""
+
+try:
+    from . import _native
+except ImportError as error:
+    raise ImportError(
+        f"The compiled part of Umbilic cannot be loaded ({error}). Build it for this Python with ./dev build, "
+        "or install it with ./dev install."
+    ) from error
+
+from ._native import Cancelled, Error, InvalidInput, NumericFailure, Unsupported
+from .comparisons import Alignment, Answer, Comparison, Match, Mesh, Overlay, Verdict, compare, match, report
+from .models import Model, ShapeData, info, read
+from .umbilical_points import UmbilicMarks, Umbilics, umbilics
+
+__all__ = [
+    "Alignment",
+    "Answer",
+    "Cancelled",
+    "Comparison",
+    "Error",
+    "InvalidInput",
+    "Match",
+    "Mesh",
+    "Model",
+    "NumericFailure",
+    "Overlay",
+    "ShapeData",
+    "UmbilicMarks",
+    "Umbilics",
+    "Unsupported",
+    "Verdict",
+    "compare",
+    "info",
+    "match",
+    "read",
+    "report",
+    "umbilics",
+]
