@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Document objects. All results are kept in properties, so that a saved document shows them without computing again.
+
+The paths of the classes here are written into documents: they never move.
+"""
+
+from .comparison import ComparisonProxy, compare_objects, make_comparison
+from .deviation import DeviationProxy
+from .umbilics import UmbilicsProxy, make_umbilics
+
+__all__ = [
+    "ComparisonProxy",
+    "DeviationProxy",
+    "UmbilicsProxy",
+    "compare_objects",
+    "make_comparison",
+    "make_umbilics",
+]

@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""How document objects are shown. Needs a window.
+
+The paths of the classes here are written into documents: they never move.
+"""
+
+from typing import Any
+
+from .comparison_view import ComparisonView
+from .deviation_view import DeviationView
+from .umbilics_view import UmbilicsView
+
+_VIEWS = {view.__name__: view for view in (ComparisonView, DeviationView, UmbilicsView)}
+
+
+def attach(obj: Any) -> bool:
+    """Gives an object its view provider if it has none, and tells whether it had none."""
+    view = _VIEWS[obj.Proxy.view_provider]
+    if isinstance(obj.ViewObject.Proxy, view):
+        return False
+    view(obj.ViewObject)
+    return True
