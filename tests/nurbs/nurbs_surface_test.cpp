@@ -93,6 +93,21 @@ TEST(NurbsSurface, SwapAndReversalKeepThePoints) {
         }
 }
 
+TEST(NurbsSurface, EveryPairOfDegreesEvaluatesToItsPolynomialForm) {
+    // Away from knots both sides are the same piece; low degrees take another way on the right side than on the left.
+    for (int p = 1; p <= 7; ++p)
+        for (int q = 1; q <= 7; ++q)
+            for (const double weight_ratio : {1.0, 5.0}) {
+                const NurbsSurface surface = support::random_surface(p, q, p + 3, q + 2, p + 10 * q, 0.3, weight_ratio);
+                const SurfaceDerivatives right = surface.derivatives(0.41, 0.77, 2);
+                const SurfaceDerivatives left = surface.derivatives(0.41, 0.77, 2, Side::left, Side::left);
+                for (int n = 0; n <= 2; ++n)
+                    for (int l = 0; l <= n; ++l)
+                        EXPECT_LT((right(n - l, l) - left(n - l, l)).norm(), 1e-11 * (1 + left(n - l, l).norm()))
+                            << p << ' ' << q << ' ' << n << ' ' << l;
+            }
+}
+
 TEST(NurbsSurface, AffineInvariance) {
     const NurbsSurface surface = support::random_surface(3, 3, 8, 8, 2, 0.3, 4.0);
     const SimilarityTransform t = support::random_similarity(5, 2.5, true);

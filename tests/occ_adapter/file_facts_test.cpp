@@ -30,6 +30,11 @@ struct Facts {
     double shortest;  ///< true largest side is at least this part of it
 };
 
+/// Names the case where GoogleTest would print its bytes.
+void PrintTo(const Facts& facts, std::ostream* out) {
+    *out << facts.file;
+}
+
 class FileFacts : public testing::TestWithParam<Facts> {};
 
 TEST_P(FileFacts, AreFound) {

@@ -77,6 +77,15 @@ TEST_F(RealPairs, PropellerIsMirrored) {
     ASSERT_TRUE(pair.alignment().found()) << pair.alignment().why;
     EXPECT_TRUE(pair.alignment().original_suspect.mirrored);
     EXPECT_NEAR(pair.alignment().original_suspect.scale, 1.0, 1e-5);
+    EXPECT_TRUE(pair.comparison.verdict.derived);
+    EXPECT_NE(pair.comparison.answer.kind, AnswerClass::different) << pair.comparison.answer.text;
+}
+
+TEST_F(RealPairs, BladeLoftedAgain) {
+    const Pair pair = compare_files("iea15_blade_2022_mm.stp", "iea15_blade_2023_mm.stp");
+    ASSERT_TRUE(pair.alignment().found()) << pair.alignment().why;
+    EXPECT_LT(pair.error(SimilarityTransform()), 5e-4);
+    EXPECT_EQ(pair.comparison.answer.kind, AnswerClass::reapproximated) << pair.comparison.answer.text;
 }
 
 TEST_F(RealPairs, SculptedSurfaceFromTwoExporters) {

@@ -10,7 +10,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include <umbilic/nurbs/bezier_patch.h>
+#include <umbilic/nurbs/area.h>
 
 namespace umbilic::support {
 
@@ -67,29 +67,6 @@ NurbsSurface graph_net(int p, int q, int nu, int nv, const std::function<double(
 
 constexpr std::array<double, 3> quarter_weight = {1.0, std::numbers::sqrt2 / 2, 1.0};
 const std::array<Vector2, 3> quarter_pole = {Vector2(1, 0), Vector2(1, 1), Vector2(0, 1)};
-
-double surface_area(const NurbsSurface& surface) {
-    // Five-point Gauss-Legendre rule on every knot rectangle, four times subdivided.
-    constexpr std::array<double, 5> node = {0.0, -0.538469310105683, 0.538469310105683, -0.906179845938664,
-                                            0.906179845938664};
-    constexpr std::array<double, 5> weight = {0.568888888888889, 0.478628670499366, 0.478628670499366,
-                                              0.236926885056189, 0.236926885056189};
-    constexpr int parts = 4;
-    double area = 0.0;
-    for (const BezierPatch& patch : bezier_patches(surface).patches) {
-        const double du = patch.domain.u.length() / parts, dv = patch.domain.v.length() / parts;
-        for (int a = 0; a < parts; ++a)
-            for (int b = 0; b < parts; ++b)
-                for (int i = 0; i < 5; ++i)
-                    for (int j = 0; j < 5; ++j) {
-                        const double u = patch.domain.u.low + (a + 0.5 + 0.5 * node[i]) * du;
-                        const double v = patch.domain.v.low + (b + 0.5 + 0.5 * node[j]) * dv;
-                        const SurfaceDerivatives d = surface.derivatives(u, v, 1);
-                        area += weight[i] * weight[j] * d.r_u().cross(d.r_v()).norm() * du * dv / 4;
-                    }
-    }
-    return area;
-}
 
 }  // namespace
 

@@ -44,7 +44,7 @@ NurbsSurface transformed(const NurbsSurface& surface, const SimilarityTransform&
 /// Random similarity: rotation uniform, translation within a cube of half side `reach`, the given scale and hand.
 SimilarityTransform random_similarity(unsigned seed, double scale, bool mirrored, double reach = 10.0);
 
-/// Model of one untrimmed B-spline face per surface. Area by Gauss quadrature on the Bezier patches.
+/// Model of one untrimmed B-spline face per surface.
 Model model_of(std::vector<NurbsSurface> surfaces);
 
 }  // namespace umbilic::support

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
 
-/// Samples of the second derivative on a piece, ends included.
+/// Samples of the second derivative on a piece.
 constexpr int sample_count = 9;
 /// The greatest difference of the samples from their mean times this bounds that of the whole piece.
 constexpr double sample_safety = 2.0;
@@ -120,9 +120,8 @@ CellModel boundary_model(const NurbsSurface& surface, const TrimmingRegion& regi
     Vector3 mean = Vector3::Zero();
     BoundaryPoint middle;
     for (int k = 0; k < sample_count; ++k) {
-        // Just inside the ends, where the neighbouring piece may have other derivatives.
-        const double inset = k == 0 ? rounding : k == sample_count - 1 ? -rounding : 0.0;
-        const double t = low + length * (k / (sample_count - 1.0) + inset);
+        // Well inside the ends, where the neighbouring piece may have other derivatives.
+        const double t = low + length * (k + 0.5) / sample_count;
         const BoundaryPoint point = boundary_point(surface, region, curve, t);
         if (2 * k == sample_count - 1) middle = point;
         second[k] = length * length * point.r_tt;

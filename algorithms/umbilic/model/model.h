@@ -45,7 +45,7 @@ struct Face {
     bool reversed = false;
     bool u_closed = false, v_closed = false;
     bool u_periodic = false, v_periodic = false;
-    /// Area in mm^2, from the kernel's own integration.
+    /// Area in mm^2: of the whole surface by quadrature, of a trimmed one from the kernel's integration.
     double area = 0.0;
     /// Largest distance (mm) between the file's surface and `surface`; 0 if the conversion is exact.
     double conversion_error = 0.0;

@@ -150,6 +150,7 @@ bool with_tabulated_evaluation(const NurbsSurface& surface, const Use& use) {
         return true;
     };
     static_assert(maximum_tabulated_degree == 3);
+    if (surface.u_degree() > maximum_tabulated_degree || surface.v_degree() > maximum_tabulated_degree) return false;
     switch (4 * surface.u_degree() + surface.v_degree()) {
         case 4 * 3 + 3:
             return with_degrees.template operator()<3, 3>();

@@ -89,13 +89,17 @@ AnswerClass class_of_whole_copy(const PoseChanges& changes, bool exact) {
 
 Answer no_pose(const Alignment& alignment) {
     // Without a single hypothesis nothing was compared, so nothing can be said of the shapes.
-    const bool tried = alignment.method != MatchMethod::none || !alignment.runners_up.empty();
-    std::string why = alignment.why;
-    while (!why.empty() && why.back() == '.') why.pop_back();
-    return {AnswerClass::different,
-            (tried ? "different: no position of the suspect fits the original ("
-                   : "nothing could be decided: no method proposes a position of the suspect (") +
-                why + ")"};
+    if (alignment.method == MatchMethod::none && alignment.runners_up.empty()) {
+        std::string why = alignment.why;
+        while (!why.empty() && why.back() == '.') why.pop_back();
+        return {AnswerClass::different,
+                "nothing could be decided: no method proposes a position of the suspect (" + why + ")"};
+    }
+    Answer result{AnswerClass::different, "different: no position of the suspect fits the original"};
+    if (!alignment.runners_up.empty())
+        result.text += "; at best " + in_percent(alignment.runners_up.front().score) + " of its area comes within " +
+                       in_mm(alignment.tolerance) + " of it";
+    return result;
 }
 
 std::string caveat(const Alignment& alignment) {
@@ -112,7 +116,7 @@ std::string caveat(const Alignment& alignment) {
 }  // namespace
 
 Answer answer(const Model& original, const Model& suspect, const Alignment& alignment, const Assessment& assessment,
-              const Verdict&) {
+              const Verdict& verdict) {
     if (alignment.status == AlignmentStatus::not_found) return no_pose(alignment);
 
     const DirectedComparison& on_original = assessment.suspect_on_original;
@@ -124,7 +128,8 @@ Answer answer(const Model& original, const Model& suspect, const Alignment& alig
     const std::string suspect_share = in_percent(on_original.coverage);
     const std::string original_share = in_percent(on_suspect.coverage);
 
-    if (!suspect_whole && !original_whole && !part_coincides(assessment))
+    const bool passed = verdict.level != Level::none;
+    if (!suspect_whole && !original_whole && !passed && !part_coincides(assessment))
         return {AnswerClass::different, "different: in the best position found " + suspect_share +
                                             " of the suspect's area comes within " + in_mm(tolerance) +
                                             " of the original, no more than unrelated shapes may"};
@@ -134,7 +139,8 @@ Answer answer(const Model& original, const Model& suspect, const Alignment& alig
     const bool whole = suspect_whole || original_whole;
     const bool exact = whole && deviation <= exact_distance;
 
-    const double pose_tolerance = exact ? exact_distance : tolerance;
+    // What a deviation makes of scale and place is no change of them: over the model both grow to about twice as much.
+    const double pose_tolerance = exact ? exact_distance : std::max(tolerance, 2.0 * deviation);
     const SimilarityTransform pose = plainest_pose(alignment, suspect.box, pose_tolerance);
     const PoseChanges changes = pose_changes(pose, suspect.box, pose_tolerance);
     const ControlNets nets =

@@ -20,7 +20,7 @@ std::string converted(double number, std::chars_format format, int precision) {
 
 std::string in_digits(double number, int digits) {
     // Powers of ten are for numbers that nobody measures.
-    constexpr double smallest = 1e-9, largest = 1e9;
+    constexpr double smallest = 1e-6, largest = 1e9;
     const double magnitude = std::abs(number);
     if (!(magnitude >= smallest && magnitude < largest)) return converted(number, std::chars_format::general, digits);
     const int decimals = std::max(0, digits - 1 - static_cast<int>(std::floor(std::log10(magnitude))));
@@ -32,7 +32,9 @@ std::string in_digits(double number, int digits) {
 }
 
 std::string in_mm(double length) {
-    // Two digits say enough of a deviation.
+    // Two digits say enough of a deviation, and no part is made to a nanometre.
+    constexpr double measurable = 1e-6;
+    if (length > 0.0 && length < measurable) return "less than 0.000001 mm";
     return in_digits(length, 2) + " mm";
 }
 
