@@ -124,6 +124,7 @@ void add_file_facts(const ShapeFile& file, const FileDescription& description, M
         model.warnings.push_back("the file declares " + std::to_string(description.declared_faces) +
                                  " faces, but only " + std::to_string(arrived) + " arrived");
     model.warnings.insert(model.warnings.end(), description.warnings.begin(), description.warnings.end());
+    model.warnings.insert(model.warnings.end(), file.warnings.begin(), file.warnings.end());
     for (Face& face : model.faces) {
         if (const auto name = file.face_names.find(face.number); name != file.face_names.end())
             face.name = name->second;

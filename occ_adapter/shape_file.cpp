@@ -30,6 +30,7 @@
 
 #include "document_attributes.h"
 #include "kernel_progress.h"
+#include "knot_check.h"
 
 namespace umbilic {
 
@@ -123,6 +124,7 @@ ShapeFile read_step(const std::string& path, const Progress& progress) {
     result.unit_in_mm = step_unit_in_mm(reader.ChangeReader().StepModel());
     result.unit = unit_word(result.unit_in_mm);
     result.first_complaint = first_failure(*reader.ChangeReader().WS());
+    result.warnings = decreasing_knots(reader.ChangeReader().StepModel());
     read_attributes(document, result);
     return result;
 }
@@ -148,6 +150,7 @@ ShapeFile read_iges(const std::string& path, const Progress& progress) {
     result.unit_in_mm = iges_unit_in_mm(reader.IGESModel()->GlobalSection());
     result.unit = unit_word(result.unit_in_mm);
     result.first_complaint = first_failure(*reader.WS());
+    result.warnings = decreasing_knots(reader.IGESModel());
     read_attributes(document, result);
     return result;
 }

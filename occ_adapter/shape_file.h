@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS_Shape.hxx>
@@ -27,6 +28,8 @@ struct ShapeFile {
     std::map<int, std::array<double, 3>> face_colors;  ///< red, green, blue in [0, 1], sRGB
     /// What the kernel complained about first, for the message if nothing arrives.
     std::string first_complaint;
+    /// What arrived otherwise than the file describes it.
+    std::vector<std::string> warnings;
 };
 
 /// Reads a file of the described format. The shape is the one compound (or single shape) FreeCAD's Part.read() gives,

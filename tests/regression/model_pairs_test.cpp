@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 #include <occ_adapter/read_file.h>
+#include <umbilic/core/errors.h>
 #include <umbilic/similarity/compare.h>
 
 namespace umbilic {
@@ -110,6 +111,19 @@ INSTANTIATE_TEST_SUITE_P(Models, ModelPairs, testing::Range(0, static_cast<int>(
                              return test_name(pair.at("original").get<std::string>() + "_and_" +
                                               pair.at("suspect").get<std::string>());
                          });
+
+TEST(MalformedModels, AreErrorsOrWarnedOf) {
+    for (const nlohmann::json& entry : truth().at("malformed")) {
+        const std::string file = entry.at("file");
+        try {
+            const Model read = model(file);
+            EXPECT_EQ(entry.at("expected").get<std::string>(), "error or warning") << file;
+            EXPECT_FALSE(read.warnings.empty()) << file;
+        } catch (const InvalidInput& error) {
+            EXPECT_NE(std::string(error.what()).find(file), std::string::npos) << error.what();
+        }
+    }
+}
 
 }  // namespace
 }  // namespace umbilic
