@@ -42,10 +42,12 @@ void add_match_options(CLI::App& subcommand, MatchWords& words) {
     subcommand.add_option("ORIGINAL", words.original, "STEP, IGES or BREP file")->required();
     subcommand.add_option("SUSPECT", words.suspect, "STEP, IGES or BREP file that may be a copy")->required();
     const char* const group = "Pose";
-    subcommand.add_option("--method", words.match.method, "How poses are proposed: auto, umbilics or moments")
+    subcommand
+        .add_option("--method", words.match.method, "How poses are proposed: auto, umbilics, moments or curvature")
         ->transform(CLI::CheckedTransformer(std::map<std::string, MethodChoice>{{"auto", MethodChoice::automatic},
                                                                                 {"umbilics", MethodChoice::umbilics},
-                                                                                {"moments", MethodChoice::moments}})
+                                                                                {"moments", MethodChoice::moments},
+                                                                                {"curvature", MethodChoice::curvature}})
                         .description(""))
         ->type_name("METHOD")
         ->group(group);
