@@ -112,6 +112,20 @@ INSTANTIATE_TEST_SUITE_P(Models, ModelPairs, testing::Range(0, static_cast<int>(
                                               pair.at("suspect").get<std::string>());
                          });
 
+TEST(ModelTolerances, ALooserToleranceLosesNoFinding) {
+    const Model original = model("bottle.step"), suspect = model("bottle_redesigned.igs");
+    const PreparedModel a = prepare(original), b = prepare(suspect);
+    double coverage = 0.0;
+    for (const double distance : {0.01, 0.05, 0.1, 0.25, 0.5}) {
+        CompareOptions options;
+        options.tolerances.distance = distance;
+        const Comparison comparison = compare(a, b, options);
+        EXPECT_TRUE(comparison.alignment.found()) << distance << ' ' << comparison.alignment.why;
+        EXPECT_GE(comparison.alignment.suspect_coverage, coverage) << distance;
+        coverage = comparison.alignment.suspect_coverage;
+    }
+}
+
 TEST(MalformedModels, AreErrorsOrWarnedOf) {
     for (const nlohmann::json& entry : truth().at("malformed")) {
         const std::string file = entry.at("file");

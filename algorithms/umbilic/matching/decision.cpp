@@ -104,6 +104,38 @@ void demand_evidence(const ScoredPose& pose, const PoseSearch& search, Fit& fit)
     }
 }
 
+/// The level of a fit that has to satisfy the given step.
+Fit judged(const ScoredPose& pose, const PoseSearch& search, Fit fit, std::size_t step) {
+    if (!enough(fit, steps[step])) {
+        fit.why = "too little coincides";
+        return fit;
+    }
+    fit.exact = step == 0;
+    fit.level = steps[step].level;
+    if (fit.level == FitLevel::compatible) fit.why = "the shapes resemble each other but do not coincide";
+    if (fit.level == FitLevel::found) demand_evidence(pose, search, fit);
+    return fit;
+}
+
+/// Judges at the tolerance that says most: a coarser step only where the finer one does not suffice or covers much
+/// less.
+Fit judge_by_steps(const ScoredPose& pose, const PoseSearch& search) {
+    const double stated = search.stated_tolerance(pose.hypothesis.original_suspect.scale);
+    Fit fit = fit_at(pose, search, FitTolerance::exact * pose.length + stated);
+    std::size_t step = 0;
+    for (std::size_t coarser = 1; coarser < steps.size(); ++coarser) {
+        const bool sufficient = enough(fit, steps[step]);
+        if (sufficient && steps[coarser].level != FitLevel::found) break;
+        const Fit next = fit_at(pose, search, steps[coarser].relative * pose.length + stated);
+        const double gain =
+            std::max(next.suspect.share, next.original.share) / std::max(fit.suspect.share, fit.original.share);
+        if (sufficient && !(gain > worthwhile && enough(next, steps[coarser]))) continue;
+        fit = next;
+        step = coarser;
+    }
+    return judged(pose, search, fit, step);
+}
+
 /// Share of a model that its own motion lays on itself.
 double self_coverage(const Ground& model, const SimilarityTransform& motion, double tolerance) {
     return coverage(model.model.features.samples, sample_distances(model, model.model, motion, tolerance), tolerance)
@@ -175,34 +207,17 @@ std::string coverage_text(const Fit& fit) {
 }  // namespace
 
 Fit judge(const ScoredPose& pose, const PoseSearch& search) {
-    const double stated = search.stated_tolerance(pose.hypothesis.original_suspect.scale);
-    Fit fit;
-    std::size_t step = 0;
-    if (search.options().tolerance) {
-        fit = fit_at(pose, search, *search.options().tolerance);
-        step = step_of(fit.tolerance / pose.length);
-    } else {
-        fit = fit_at(pose, search, FitTolerance::exact * pose.length + stated);
-        for (std::size_t coarser = 1; coarser < steps.size(); ++coarser) {
-            const bool sufficient = enough(fit, steps[step]);
-            if (sufficient && steps[coarser].level != FitLevel::found) break;
-            const Fit next = fit_at(pose, search, steps[coarser].relative * pose.length + stated);
-            const double gain =
-                std::max(next.suspect.share, next.original.share) / std::max(fit.suspect.share, fit.original.share);
-            if (sufficient && !(gain > worthwhile && enough(next, steps[coarser]))) continue;
-            fit = next;
-            step = coarser;
-        }
-    }
-    if (!enough(fit, steps[step])) {
-        fit.why = "too little coincides";
+    const Fit derived = judge_by_steps(pose, search);
+    if (!search.options().tolerance) return derived;
+    const double wanted = *search.options().tolerance;
+    Fit fit = fit_at(pose, search, wanted);
+    if (derived.level == FitLevel::found && derived.tolerance <= wanted) {
+        // What is found within a tighter tolerance is found; only the shares are those of the tolerance asked for.
+        fit.level = derived.level;
+        fit.exact = derived.exact;
         return fit;
     }
-    fit.exact = step == 0;
-    fit.level = steps[step].level;
-    if (fit.level == FitLevel::compatible) fit.why = "the shapes resemble each other but do not coincide";
-    if (fit.level == FitLevel::found) demand_evidence(pose, search, fit);
-    return fit;
+    return judged(pose, search, fit, step_of(wanted / pose.length));
 }
 
 bool settled(const PoseSearch& search) {
