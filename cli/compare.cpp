@@ -101,7 +101,8 @@ void add_compare(CLI::App& application, Session& session, Command& command) {
     tolerance("--distance", words->tolerances.distance, "Weak test, mm of the original");
     tolerance("--kappa", words->tolerances.kappa, "Intermediate test, curvatures, 1/mm of the original");
     tolerance("--direction", words->tolerances.direction, "Intermediate test, principal directions, radians");
-    tolerance("--umbilic_distance", words->tolerances.umbilic_distance, "Strong test, mm of the original");
+    tolerance("--umbilic-distance,--umbilic_distance", words->tolerances.umbilic_distance,
+              "Strong test, mm of the original");
     subcommand
         ->add_option("--cell", words->tolerances.cell, "Cell of the local similarity, relative to a face's domain")
         ->check(CLI::Range(1e-3, 1.0))
