@@ -333,15 +333,17 @@ std::vector<Invariance> reparametrisations(unsigned seed) {
     add("moebius_in_both", 1, [](const NurbsSurface& s) { return moebius(s, 0.6, 1.4); });
     add("made_rational", 1, [](const NurbsSurface& s) { return with_common_factor(s, 1.5, 0.7); });
     add("rejoined", 1, rejoined);
-    result.push_back({"elementary_as_nurbs", [](const Model& model) {
-                          return reparametrised(
-                              model,
-                              [](const NurbsSurface& s) {
-                                  return Reparametrised{s, [](const Vector2& at) { return at; }};
-                              },
-                              1);
-                      }});
+    result.push_back(elementary_as_nurbs());
     return result;
+}
+
+Invariance elementary_as_nurbs() {
+    return {"elementary_as_nurbs", [](const Model& model) {
+                const auto same = [](const NurbsSurface& surface) {
+                    return Reparametrised{surface, [](const Vector2& at) { return at; }};
+                };
+                return reparametrised(model, same, 1);
+            }};
 }
 
 Invariance split() {

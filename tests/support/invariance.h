@@ -44,6 +44,9 @@ std::vector<Invariance> similarities(unsigned seed = 1);
 /// become B-spline faces; trimming curves that the map of parameters bends become `loop_segments` straight pieces.
 std::vector<Invariance> reparametrisations(unsigned seed = 1);
 
+/// The last of the reparametrisations: elementary faces as B-spline faces, all loops in surface parameters.
+Invariance elementary_as_nurbs();
+
 /// Untrimmed faces split in 2 x 2 pieces each (trimmed ones stay whole).
 Invariance split();
 /// Untrimmed faces trimmed to a rectangle each; without any, the second half of the faces is left out.
