@@ -5,20 +5,11 @@
 #include <vector>
 
 #include <umbilic/curves/bezier_cell.h>
+#include <umbilic/nurbs/boundary_point.h>
 #include <umbilic/nurbs/nurbs_surface.h>
 #include <umbilic/nurbs/trimming.h>
 
 namespace umbilic {
-
-/// Point of a trimming curve in space with two derivatives by the curve's parameter, and its surface parameters.
-struct BoundaryPoint {
-    Vector2 parameters = Vector2::Zero();
-    Vector3 r, r_t, r_tt;
-};
-
-/// Image of a trimming curve on its surface at t. Parameters outside the surface's domain are clamped to it.
-BoundaryPoint boundary_point(const NurbsSurface& surface, const TrimmingRegion& region, const TrimmingCurve& curve,
-                             double t);
 
 /// Parameters at which the image of a trimming curve may lack a second derivative: breaks of the curve and crossings
 /// with the breaks of the angular maps and with knot lines of the surface where it is less than C2, both ends included,

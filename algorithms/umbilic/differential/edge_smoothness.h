@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <vector>
+
+#include <umbilic/model/face_adjacency.h>
+
+namespace umbilic {
+
+/// How two faces continue each other across a shared edge, at samples along it.
+struct EdgeSmoothness {
+    int samples = 0;  ///< regular ones; nothing is known about the edge if 0
+    /// Largest angle (radians) between the directions in which one face runs into the edge and the other out of it: 0
+    /// for a common tangent plane (G1), pi where the surface folds back.
+    double bend = 0.0;
+    /// Largest difference (1/mm) of the normal curvatures across the edge, and the largest of these curvatures. Along
+    /// a G1 edge the other parts of the second fundamental form agree by themselves, so 0 means G2.
+    double curvature_jump = 0.0;
+    double curvature = 0.0;
+
+    bool smooth(double largest_bend) const { return samples > 0 && bend <= largest_bend; }
+};
+
+/// Bend (radians) up to which an edge counts as smooth unless the caller chooses: 0.5 degrees, the tolerance for
+/// tangency usual in exchange between CAD systems.
+inline constexpr double default_largest_bend = 8.7e-3;
+
+/// Smoothness of an edge between its first two uses; without samples if it has not exactly two.
+EdgeSmoothness edge_smoothness(const FaceAdjacency& adjacency, const Edge& edge);
+
+/// The same for all edges, in parallel, in their order.
+std::vector<EdgeSmoothness> edge_smoothness(const FaceAdjacency& adjacency, const Progress& progress = {});
+
+}  // namespace umbilic
