@@ -27,8 +27,36 @@ constexpr int fewest_chords = 8;
 /// the chord turns by less than a right angle.
 constexpr double reach_of_chord = 0.75;
 
-struct Points {
+Vector3 position(const Borders& borders, const BorderPiece& piece, double t) {
+    const Face& face = borders.face(piece.face);
+    return boundary_point(face.surface, face.region, borders.curve(piece), t).r;
+}
+
+/// The ends of border pieces for search by distance: 2 i the start, 2 i + 1 the end of piece i.
+struct EndTree {
+    using Index = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, EndTree>, EndTree, 3>;
+
     std::vector<Vector3> at;
+    std::unique_ptr<Index> index;
+
+    EndTree(const Borders& borders, const std::vector<BorderPiece>& pieces) {
+        for (const BorderPiece& piece : pieces) {
+            at.push_back(position(borders, piece, piece.range.low));
+            at.push_back(position(borders, piece, piece.range.high));
+        }
+        index = std::make_unique<Index>(3, *this, nanoflann::KDTreeSingleIndexAdaptorParams());
+        index->buildIndex();
+    }
+
+    std::vector<std::size_t> within(const Vector3& point, double radius) const {
+        std::vector<std::pair<unsigned, double>> found;
+        index->radiusSearch(point.data(), radius * radius, found, nanoflann::SearchParams());
+        std::vector<std::size_t> result;
+        for (const auto& [end, squared] : found) result.push_back(end);
+        std::sort(result.begin(), result.end());
+        return result;
+    }
+
     std::size_t kdtree_get_point_count() const { return at.size(); }
     double kdtree_get_pt(std::size_t i, std::size_t axis) const { return at[i][static_cast<int>(axis)]; }
     template <class Box>
@@ -36,25 +64,9 @@ struct Points {
         return false;
     }
 };
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Points>, Points, 3>;
-
-Vector3 position(const Borders& borders, const BorderPiece& piece, double t) {
-    const Face& face = borders.face(piece.face);
-    return boundary_point(face.surface, face.region, borders.curve(piece), t).r;
-}
-
-std::vector<std::size_t> within(const Tree& tree, const Vector3& point, double radius) {
-    std::vector<std::pair<unsigned, double>> found;
-    tree.radiusSearch(point.data(), radius * radius, found, nanoflann::SearchParams());
-    std::vector<std::size_t> result;
-    for (const auto& [index, squared] : found) result.push_back(index);
-    std::sort(result.begin(), result.end());
-    return result;
-}
 
 /// The curve cut at the ends of others that lie on it.
-std::vector<BorderPiece> cut(const Borders& borders, const BorderPiece& whole, const Points& ends, const Tree& tree,
-                             double tolerance) {
+std::vector<BorderPiece> cut(const Borders& borders, const BorderPiece& whole, const EndTree& ends, double tolerance) {
     const Face& face = borders.face(whole.face);
     const std::vector<TrimmingLoop>& loops = borders.loops_of(whole.face);
     const int spans = static_cast<int>(borders.curve(whole).curve.knots().breaks().size()) - 1;
@@ -67,7 +79,7 @@ std::vector<BorderPiece> cut(const Borders& borders, const BorderPiece& whole, c
         double chord = 0.0;
         if (i > 0) chord = (samples[i] - samples[i - 1]).norm();
         if (i < chords) chord = std::max(chord, (samples[i + 1] - samples[i]).norm());
-        for (const std::size_t end : within(tree, samples[i], reach_of_chord * chord + tolerance))
+        for (const std::size_t end : ends.within(samples[i], reach_of_chord * chord + tolerance))
             candidates.push_back(end);
     }
     std::sort(candidates.begin(), candidates.end());
@@ -119,33 +131,16 @@ Borders::Borders(const Model& of) : model(&of) {
 std::vector<std::vector<BorderPiece>> coincident_borders(const Borders& borders, const std::vector<BorderPiece>& curves,
                                                          double tolerance) {
     if (curves.empty()) return {};
-    const auto tree_of = [](const Points& points) {
-        return std::make_unique<Tree>(3, points, nanoflann::KDTreeSingleIndexAdaptorParams());
-    };
     std::vector<BorderPiece> pieces;
-    {
-        Points ends;
-        for (const BorderPiece& curve : curves) {
-            ends.at.push_back(position(borders, curve, curve.range.low));
-            ends.at.push_back(position(borders, curve, curve.range.high));
-        }
-        const auto tree = tree_of(ends);
-        tree->buildIndex();
-        for (const BorderPiece& curve : curves)
-            for (const BorderPiece& piece : cut(borders, curve, ends, *tree, tolerance)) pieces.push_back(piece);
-    }
+    const EndTree curve_ends(borders, curves);
+    for (const BorderPiece& curve : curves)
+        for (const BorderPiece& piece : cut(borders, curve, curve_ends, tolerance)) pieces.push_back(piece);
 
     // Ends within the tolerance are one corner; partners have the same two corners.
-    Points ends;
-    for (const BorderPiece& piece : pieces) {
-        ends.at.push_back(position(borders, piece, piece.range.low));
-        ends.at.push_back(position(borders, piece, piece.range.high));
-    }
-    const auto tree = tree_of(ends);
-    tree->buildIndex();
+    const EndTree ends(borders, pieces);
     DisjointSets corners(ends.at.size());
     for (std::size_t i = 0; i < ends.at.size(); ++i)
-        for (const std::size_t other : within(*tree, ends.at[i], 2 * tolerance)) corners.unite(i, other);
+        for (const std::size_t other : ends.within(ends.at[i], 2 * tolerance)) corners.unite(i, other);
     std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> by_corners;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         const std::size_t a = corners.find(2 * i), b = corners.find(2 * i + 1);
