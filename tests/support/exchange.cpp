@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
@@ -22,6 +23,7 @@
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
+#include <TopoDS_Vertex.hxx>
 #include <unistd.h>
 
 #include <models/generate/exchange.h>
@@ -81,6 +83,23 @@ Handle(Geom2d_BSplineCurve) to_kernel(const NurbsCurve2& curve) {
     return new Geom2d_BSplineCurve(poles, weights, knots.values, knots.multiplicities, curve.knots().degree());
 }
 
+/// Vertex k where curve k of the loop starts; as wide as the gap to the end of the one before.
+std::vector<TopoDS_Vertex> corner_vertices(const Face& face, const TrimmingLoop& loop) {
+    const auto end = [&](const TrimmingCurve& curve, bool first) {
+        const ParameterInterval domain = curve.curve.domain();
+        const Vector2 at = curve.curve.value(first != curve.reversed ? domain.low : domain.high);
+        return face.surface.value(at.x(), at.y());
+    };
+    std::vector<TopoDS_Vertex> result;
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+        const Vector3 start = end(loop[k], true), before = end(loop[(k + loop.size() - 1) % loop.size()], false);
+        TopoDS_Vertex vertex;
+        BRep_Builder().MakeVertex(vertex, to_point(start), vertex_tolerance + (start - before).norm());
+        result.push_back(vertex);
+    }
+    return result;
+}
+
 TopoDS_Face to_kernel(const Face& face) {
     const Handle(Geom_BSplineSurface) surface = to_kernel(face.surface);
     if (face.region.whole_domain()) {
@@ -92,11 +111,18 @@ TopoDS_Face to_kernel(const Face& face) {
     BRep_Builder builder;
     builder.MakeFace(result, surface, vertex_tolerance);
     for (const TrimmingLoop& loop : face.region.loops()) {
+        const std::vector<TopoDS_Vertex> corners = corner_vertices(face, loop);
         BRepBuilderAPI_MakeWire wire;
-        for (const TrimmingCurve& curve : loop) {
-            TopoDS_Edge edge = BRepBuilderAPI_MakeEdge(to_kernel(curve.curve), surface).Edge();
+        for (std::size_t k = 0; k < loop.size(); ++k) {
+            const TopoDS_Vertex &from = corners[k], &to = corners[(k + 1) % loop.size()];
+            const bool back = loop[k].reversed;
+            BRepBuilderAPI_MakeEdge make(to_kernel(loop[k].curve), surface, back ? to : from, back ? from : to);
+            if (!make.IsDone())
+                throw InvalidInput("curve " + std::to_string(k + 1) + " of face " + std::to_string(face.number) +
+                                   " makes no edge");
+            TopoDS_Edge edge = make.Edge();
             BRepLib::BuildCurve3d(edge);
-            wire.Add(curve.reversed ? TopoDS::Edge(edge.Reversed()) : edge);
+            wire.Add(back ? TopoDS::Edge(edge.Reversed()) : edge);
         }
         if (!wire.IsDone()) throw InvalidInput("a loop of face " + std::to_string(face.number) + " makes no wire");
         builder.Add(result, wire.Wire());
