@@ -89,6 +89,16 @@ double restrict_v(CoefficientShape shape, double* c, double low, double high) {
     });
 }
 
+double keep_below_u(CoefficientShape shape, double* c, double t) {
+    keep_part(shape.p, shape.row_length(), c, t, false);
+    return growth(shape.p, t);
+}
+
+double keep_above_u(CoefficientShape shape, double* c, double t) {
+    keep_part(shape.p, shape.row_length(), c, t, true);
+    return growth(shape.p, t);
+}
+
 void bernstein_basis(int n, double t, double* values, double* derivatives) {
     const double s = 1.0 - t;
     std::fill(derivatives, derivatives + n + 1, 0.0);
@@ -103,6 +113,16 @@ void bernstein_basis(int n, double t, double* values, double* derivatives) {
         values[degree] = t * values[degree - 1];
         for (int k = degree - 1; k > 0; --k) values[k] = s * values[k] + t * values[k - 1];
         values[0] *= s;
+    }
+}
+
+void bernstein_basis(int n, double t, Interval* values) {
+    const Interval s = Interval(1.0) - Interval(t);
+    values[0] = 1.0;
+    for (int degree = 1; degree <= n; ++degree) {
+        values[degree] = Interval(t) * values[degree - 1];
+        for (int k = degree - 1; k > 0; --k) values[k] = s * values[k] + Interval(t) * values[k - 1];
+        values[0] = s * values[0];
     }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <span>
+#include <umbilic/bernstein/interval.h>
 
 namespace umbilic {
 
@@ -27,8 +27,15 @@ double restrict_u(CoefficientShape shape, double* coefficients, double low, doub
 /// The same in v.
 double restrict_v(CoefficientShape shape, double* coefficients, double low, double high);
 
+/// One end alone: coefficients on [0, t] or on [t, 1] in u, in place; t may lie outside [0, 1]. Returns the growth as
+/// above; the arithmetic adds at most 3 p unit roundoffs of that factor times the largest coefficient before.
+double keep_below_u(CoefficientShape shape, double* coefficients, double t);
+double keep_above_u(CoefficientShape shape, double* coefficients, double t);
+
 /// Values and first derivatives of the Bernstein polynomials of degree n at t, n + 1 numbers each. In [0, 1] each value
 /// has a relative error of at most 3 n unit roundoffs.
 void bernstein_basis(int n, double t, double* values, double* derivatives);
+/// Enclosures of the values, for any t.
+void bernstein_basis(int n, double t, Interval* values);
 
 }  // namespace umbilic

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <array>
 
+#include <umbilic/bernstein/subdivision.h>
 #include <umbilic/nurbs/knot_vector.h>
 #include <umbilic/umbilics/equations.h>
 
@@ -10,19 +11,6 @@ namespace {
 
 using Basis = std::array<Interval, maximum_degree + 1>;
 using Vector = std::array<Interval, 4>;
-
-/// Bernstein polynomials of degree n at t.
-Basis basis(int n, double t) {
-    const Interval s = Interval(1.0) - Interval(t);
-    Basis result;
-    result[0] = 1.0;
-    for (int degree = 1; degree <= n; ++degree) {
-        result[degree] = Interval(t) * result[degree - 1];
-        for (int k = degree - 1; k > 0; --k) result[k] = s * result[k] + Interval(t) * result[k - 1];
-        result[0] = s * result[0];
-    }
-    return result;
-}
 
 Interval dot(const Vector& a, const Vector& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -46,8 +34,8 @@ Vector wedge(const Vector& p, const Vector& u, const Vector& v) {
 std::array<Interval, 2> UmbilicEquations::enclose(const Vector2& at) const {
     std::array<Basis, 3> u_basis, v_basis;
     for (int order = 0; order <= 2; ++order) {
-        if (p_ >= order) u_basis[order] = basis(p_ - order, at.x());
-        if (q_ >= order) v_basis[order] = basis(q_ - order, at.y());
+        if (p_ >= order) bernstein_basis(p_ - order, at.x(), u_basis[order].data());
+        if (q_ >= order) bernstein_basis(q_ - order, at.y(), v_basis[order].data());
     }
     const auto derivative = [&](int u_order, int v_order) {
         static constexpr double stencil[3][3] = {{1, 0, 0}, {-1, 1, 0}, {1, -2, 1}};
