@@ -66,6 +66,9 @@ public:
     /// Number i of the polynomial piece [breaks[i], breaks[i + 1]) that holds u; the first or last outside the domain.
     int piece(double u) const;
 
+    /// Span index (see span()) of polynomial piece number `piece`.
+    int piece_span(int piece) const { return piece_spans_[piece]; }
+
     /// One table for each polynomial piece; empty above maximum_tabulated_degree.
     const std::vector<BasisPiece>& basis_pieces() const { return basis_pieces_; }
 

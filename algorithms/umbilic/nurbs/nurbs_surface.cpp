@@ -81,9 +81,21 @@ SurfaceDerivatives NurbsSurface::derivatives(double u, double v, int order, Side
     if (u_side == Side::right && v_side == Side::right &&
         evaluate_tabulated(*this, order, [&](auto evaluation) { evaluation.point(*this, u, v, result); }))
         return result;
+    return span_derivatives(u_knots_.span(u, u_side), v_knots_.span(v, v_side), u, v, order);
+}
+
+SurfaceDerivatives NurbsSurface::piece_derivatives(int u_piece, int v_piece, double u, double v, int order) const {
+    assert(0 <= order && order <= maximum_derivative);
+    SurfaceDerivatives result;
+    if (evaluate_tabulated(*this, order,
+                           [&](auto evaluation) { evaluation.point(*this, u_piece, v_piece, u, v, result); }))
+        return result;
+    return span_derivatives(u_knots_.piece_span(u_piece), v_knots_.piece_span(v_piece), u, v, order);
+}
+
+SurfaceDerivatives NurbsSurface::span_derivatives(int u_span, int v_span, double u, double v, int order) const {
+    SurfaceDerivatives result;
     const int p = u_degree(), q = v_degree();
-    const int u_span = u_knots_.span(u, u_side);
-    const int v_span = v_knots_.span(v, v_side);
     std::array<double, order_count*(maximum_degree + 1)> u_basis, v_basis;
     u_knots_.basis(u_span, u, order, u_basis.data());
     v_knots_.basis(v_span, v, order, v_basis.data());

@@ -43,6 +43,10 @@ public:
     SurfaceDerivatives derivatives(double u, double v, int order, Side u_side = Side::right,
                                    Side v_side = Side::right) const;
 
+    /// The same of the polynomial piece (u_piece, v_piece), numbered as KnotVector::piece() does, continued beyond its
+    /// own knots: what an integration that shall not see a jump of the third derivative needs.
+    SurfaceDerivatives piece_derivatives(int u_piece, int v_piece, double u, double v, int order) const;
+
     /// Derivatives at many parameters (u, v); `result` has as many entries as `parameters`.
     void derivatives(std::span<const Vector2> parameters, int order, std::span<SurfaceDerivatives> result) const;
 
@@ -52,6 +56,8 @@ public:
     NurbsSurface u_reversed() const;
 
 private:
+    SurfaceDerivatives span_derivatives(int u_span, int v_span, double u, double v, int order) const;
+
     KnotVector u_knots_;
     KnotVector v_knots_;
     std::vector<Vector3> poles_;

@@ -18,9 +18,14 @@ struct TabulatedEvaluation {
     using Sums = std::array<std::array<double, dimension*(Q + 1)>, Order + 1>;
 
     static void point(const NurbsSurface& surface, double u, double v, SurfaceDerivatives& result) {
-        const BasisPiece& v_piece = surface.v_knots().basis_pieces()[surface.v_knots().piece(v)];
+        point(surface, surface.u_knots().piece(u), surface.v_knots().piece(v), u, v, result);
+    }
+
+    static void point(const NurbsSurface& surface, int u_number, int v_number, double u, double v,
+                      SurfaceDerivatives& result) {
+        const BasisPiece& v_piece = surface.v_knots().basis_pieces()[v_number];
         Sums sums;
-        sum_over_u(surface, surface.u_knots().piece(u), u, v_piece.first_pole, sums);
+        sum_over_u(surface, u_number, u, v_piece.first_pole, sums);
         sum_over_v(sums, v_piece, v, result);
     }
 
