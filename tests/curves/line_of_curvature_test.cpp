@@ -139,7 +139,7 @@ TEST(LineOfCurvature, ConvergesWithTheFifthPowerOfTheStep) {
         // The step is ruled by its longest length alone.
         const TracedLine line = tracer.trace(start, CurvatureFamily::maximum, direction,
                                              {.length = length, .tolerance = 1.0, .longest_step = length / steps});
-        EXPECT_EQ(static_cast<int>(line.steps.size()), steps);
+        EXPECT_NEAR(static_cast<int>(line.steps.size()), steps, 1);  // a last one of the length of rounding
         const Vector2 p = line.steps.back().end;
         return face.surface.value(p.x(), p.y());
     };
