@@ -1,0 +1,450 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Error bounds against multiprecision: extraction, equations (for the surface as given and for surfaces that round to
+// it), points, edges, subdivision.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
+#include <support/random_faces.h>
+#include <support/surfaces.h>
+#include <umbilic/bernstein/rounding.h>
+#include <umbilic/bernstein/subdivision.h>
+#include <umbilic/nurbs/bezier_patch.h>
+#include <umbilic/umbilics/equations.h>
+
+namespace umbilic {
+namespace {
+
+/// 60 digits: the power basis costs below 25 of them at the degrees used, the bounds begin at the 16th.
+using Exact = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<60>, boost::multiprecision::et_off>;
+
+/// Polynomial in the power basis: another basis, and naive products, than the code under test.
+struct Power {
+    int m = 0, n = 0;
+    std::vector<Exact> c = {Exact(0)};
+
+    Power() = default;
+    Power(int u_degree, int v_degree) : m(u_degree), n(v_degree), c((m + 1) * (n + 1), Exact(0)) {}
+    Exact& at(int i, int j) { return c[i * (n + 1) + j]; }
+    const Exact& at(int i, int j) const { return c[i * (n + 1) + j]; }
+
+    Power u() const {
+        Power result(std::max(m - 1, 0), n);
+        for (int i = 1; i <= m; ++i)
+            for (int j = 0; j <= n; ++j) result.at(i - 1, j) = i * at(i, j);
+        return result;
+    }
+    Power v() const {
+        Power result(m, std::max(n - 1, 0));
+        for (int i = 0; i <= m; ++i)
+            for (int j = 1; j <= n; ++j) result.at(i, j - 1) = j * at(i, j);
+        return result;
+    }
+};
+
+Power operator*(const Power& a, const Power& b) {
+    Power result(a.m + b.m, a.n + b.n);
+    for (int i = 0; i <= a.m; ++i)
+        for (int j = 0; j <= a.n; ++j) {
+            if (a.at(i, j) == 0) continue;
+            for (int k = 0; k <= b.m; ++k)
+                for (int l = 0; l <= b.n; ++l) result.at(i + k, j + l) += a.at(i, j) * b.at(k, l);
+        }
+    return result;
+}
+
+Power combine(const Power& a, const Power& b, int sign) {
+    Power result(std::max(a.m, b.m), std::max(a.n, b.n));
+    for (int i = 0; i <= a.m; ++i)
+        for (int j = 0; j <= a.n; ++j) result.at(i, j) += a.at(i, j);
+    for (int i = 0; i <= b.m; ++i)
+        for (int j = 0; j <= b.n; ++j) result.at(i, j) += sign * b.at(i, j);
+    return result;
+}
+Power operator+(const Power& a, const Power& b) {
+    return combine(a, b, 1);
+}
+Power operator-(const Power& a, const Power& b) {
+    return combine(a, b, -1);
+}
+
+const Exact& binomial(int n, int k) {
+    constexpr int most = 64;
+    static const std::vector<std::vector<Exact>> table = [] {
+        std::vector<std::vector<Exact>> result(most + 1);
+        for (int row = 0; row <= most; ++row)
+            for (int at = 0; at <= row; ++at)
+                result[row].push_back(at == 0 || at == row ? Exact(1) : result[row - 1][at - 1] + result[row - 1][at]);
+        return result;
+    }();
+    return table.at(n).at(k);
+}
+
+/// Homogeneous components of a Bezier patch with exact coefficients.
+using Net = std::array<std::vector<Exact>, 4>;
+
+Power power_form(const std::vector<Exact>& b, int p, int q) {
+    Power result(p, q);
+    for (int i = 0; i <= p; ++i)
+        for (int j = 0; j <= q; ++j)
+            for (int k = 0; k <= i; ++k)
+                for (int l = 0; l <= j; ++l)
+                    result.at(i, j) += ((i - k + j - l) % 2 ? -1 : 1) * binomial(p, i) * binomial(i, k) *
+                                       binomial(q, j) * binomial(j, l) * b[k * (q + 1) + l];
+    return result;
+}
+
+/// Bernstein coefficients of the given degrees, row-major; they may be below the formal ones if the leading terms
+/// vanish.
+std::vector<Exact> bernstein(const Power& f, int p, int q) {
+    const auto weights = [](int degree) {
+        std::vector<std::vector<Exact>> result(degree + 1);
+        for (int k = 0; k <= degree; ++k)
+            for (int i = 0; i <= k; ++i) result[k].push_back(binomial(k, i) / binomial(degree, i));
+        return result;
+    };
+    const auto u = weights(p), v = weights(q);
+    std::vector<Exact> half((f.m + 1) * (q + 1), Exact(0)), result((p + 1) * (q + 1), Exact(0));
+    for (int i = 0; i <= f.m; ++i)
+        for (int l = 0; l <= q; ++l)
+            for (int j = 0; j <= std::min(f.n, l); ++j) half[i * (q + 1) + l] += v[l][j] * f.at(i, j);
+    for (int k = 0; k <= p; ++k)
+        for (int i = 0; i <= std::min(f.m, k); ++i)
+            for (int l = 0; l <= q; ++l) result[k * (q + 1) + l] += u[k][i] * half[i * (q + 1) + l];
+    return result;
+}
+
+struct Pair {
+    Power a, b;
+};
+
+Pair exact_equations(const Net& net, int p, int q, bool rational) {
+    std::array<Power, 4> x;
+    for (int k = 0; k < (rational ? 4 : 3); ++k) x[k] = power_form(net[k], p, q);
+    using Vector = std::array<Power, 3>;
+    const auto dot = [](const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+    Vector u, v, normal;
+    std::array<Power, 3> second;
+    if (rational) {
+        // r_u w^2 and r_v w^2, and the normal N = (r_u x r_v), each up to a power of w that is divided out below.
+        for (int k = 0; k < 3; ++k) {
+            u[k] = x[3] * x[k].u() - x[k] * x[3].u();
+            v[k] = x[3] * x[k].v() - x[k] * x[3].v();
+        }
+        // det(P, P_u, P_v, Y) expanded by its last column.
+        const auto determinant = [&](const std::array<Power, 4>& y) {
+            const auto minor = [&](int i, int j, int k) {
+                return x[i] * (x[j].u() * x[k].v() - x[k].u() * x[j].v()) -
+                       x[j] * (x[i].u() * x[k].v() - x[k].u() * x[i].v()) +
+                       x[k] * (x[i].u() * x[j].v() - x[j].u() * x[i].v());
+            };
+            return minor(0, 1, 2) * y[3] - minor(0, 1, 3) * y[2] + minor(0, 2, 3) * y[1] - minor(1, 2, 3) * y[0];
+        };
+        second = {determinant({x[0].u().u(), x[1].u().u(), x[2].u().u(), x[3].u().u()}),
+                  determinant({x[0].u().v(), x[1].u().v(), x[2].u().v(), x[3].u().v()}),
+                  determinant({x[0].v().v(), x[1].v().v(), x[2].v().v(), x[3].v().v()})};
+    } else {
+        for (int k = 0; k < 3; ++k) {
+            u[k] = x[k].u();
+            v[k] = x[k].v();
+        }
+        for (int k = 0; k < 3; ++k) {
+            const int i = (k + 1) % 3, j = (k + 2) % 3;
+            normal[k] = u[i] * v[j] - u[j] * v[i];
+        }
+        second = {dot(normal, {x[0].u().u(), x[1].u().u(), x[2].u().u()}),
+                  dot(normal, {x[0].u().v(), x[1].u().v(), x[2].u().v()}),
+                  dot(normal, {x[0].v().v(), x[1].v().v(), x[2].v().v()})};
+    }
+    const Power e = dot(u, u), f = dot(u, v), g = dot(v, v);
+    return {e * second[1] - f * second[0], e * second[2] - g * second[0]};
+}
+
+/// Power of two by which the code scales its input, told from the patch.
+Exact scale_of(const BezierPatch& patch) {
+    double position = 0.0, weight = 0.0;
+    for (const Vector4& pole : patch.poles) {
+        position = std::max(position, pole.head<3>().cwiseAbs().maxCoeff());
+        weight = std::max(weight, pole[3]);
+    }
+    const double s = std::ldexp(1.0, -std::ilogb(position)), t = std::ldexp(1.0, -std::ilogb(weight));
+    // A and B are of degree 5 in the coordinates (with local weights 3 more: a is of degree 2, l of degree 4).
+    const Exact s5 = Exact(s) * s * s * s * s;
+    return patch.rational ? s5 * t * t * t : s5;
+}
+
+/// Bernstein coefficients of one span in exact arithmetic by the polar form, relative to the origin.
+Net exact_patch(const NurbsSurface& surface, int u_span, int v_span, const Vector3& origin) {
+    const int p = surface.u_degree(), q = surface.v_degree();
+    const auto polar = [](const KnotVector& knots, int span, int low_arguments, std::vector<Exact> d) {
+        const int degree = knots.degree();
+        const std::vector<double>& t = knots.knots();
+        for (int level = 1; level <= degree; ++level) {
+            const Exact argument = level <= low_arguments ? t[span] : t[span + 1];
+            for (int i = degree; i >= level; --i) {
+                const Exact low = t[span - degree + i], high = t[span + 1 + i - level];
+                const Exact alpha = (argument - low) / (high - low);
+                d[i] = (1 - alpha) * d[i - 1] + alpha * d[i];
+            }
+        }
+        return d[degree];
+    };
+    Net result;
+    for (int k = 0; k < 4; ++k)
+        for (int i = 0; i <= p; ++i)
+            for (int j = 0; j <= q; ++j) {
+                std::vector<Exact> column;
+                for (int a = 0; a <= p; ++a) {
+                    std::vector<Exact> row;
+                    for (int b = 0; b <= q; ++b) {
+                        const int iu = u_span - p + a, iv = v_span - q + b;
+                        const Exact w = surface.weight(iu, iv);
+                        row.push_back(k == 3 ? w : w * (Exact(surface.pole(iu, iv)[k]) - Exact(origin[k])));
+                    }
+                    column.push_back(polar(surface.v_knots(), v_span, q - j, row));
+                }
+                result[k].push_back(polar(surface.u_knots(), u_span, p - i, column));
+            }
+    return result;
+}
+
+/// Largest errors seen, as shares of their bounds.
+struct Shares {
+    double extraction = 0.0, rounding = 0.0, input = 0.0, edge = 0.0, halving = 0.0, restriction = 0.0;
+};
+
+double share(const Exact& error, double bound) {
+    const Exact size = abs(error);
+    if (size == 0) return 0.0;
+    return bound > 0.0 ? static_cast<double>(size / Exact(bound)) : std::numeric_limits<double>::infinity();
+}
+
+/// A surface whose numbers are within one ulp of the largest coordinate, and weight, of the given one's.
+NurbsSurface within_an_ulp(const NurbsSurface& surface, std::mt19937& random) {
+    // A little less, since the sum is rounded again.
+    std::uniform_real_distribution<double> part(-0.99, 0.99);
+    const InputRounding ulp = input_rounding(surface);
+    std::vector<Vector3> poles = surface.poles();
+    std::vector<double> weights = surface.weights();
+    for (Vector3& pole : poles)
+        for (int k = 0; k < 3; ++k) pole[k] += ulp.position * (random() % 2 ? 0.99 : part(random));
+    for (double& weight : weights) weight += ulp.weight * (random() % 2 ? 0.99 : part(random));
+    return NurbsSurface(surface.u_knots(), surface.v_knots(), std::move(poles), std::move(weights));
+}
+
+/// The coefficients in halves chosen at random, and in a part that is no dyadic box, beside exact ones.
+void expect_subdivision_within_bounds(const std::vector<double>& start, std::vector<Exact> exact,
+                                      CoefficientShape shape, double bound, std::mt19937& random, Shares& shares) {
+    const int rows = shape.p + 1, length = shape.row_length();
+    std::vector<double> c = start, first(c.size());
+    const auto largest = [](const std::vector<double>& values) {
+        double result = 0.0;
+        for (const double value : values) result = std::max(result, std::abs(value));
+        return result;
+    };
+    /// de Casteljau's algorithm; keeps [0, t] or [t, 1].
+    const auto keep = [&](std::vector<Exact>& e, bool along_u, const Exact& t, bool low_part) {
+        const int n = along_u ? shape.p : shape.q, lines = along_u ? length : rows;
+        const auto at = [&](int line, int k) -> Exact& {
+            return along_u ? e[k * length + line] : e[line * length + k];
+        };
+        for (int line = 0; line < lines; ++line)
+            for (int step = 1; step <= n; ++step) {
+                if (low_part)
+                    for (int k = n; k >= step; --k) at(line, k) = (1 - t) * at(line, k - 1) + t * at(line, k);
+                else
+                    for (int k = 0; k <= n - step; ++k) at(line, k) = (1 - t) * at(line, k) + t * at(line, k + 1);
+            }
+    };
+    std::vector<Exact> part = exact;
+    double error = bound;
+    for (int level = 0; level < 12; ++level) {
+        const bool along_u = random() % 2, low_part = random() % 2;
+        error = (error + gamma_bound(along_u ? shape.p : shape.q) * largest(c)) * bound_slack;
+        (along_u ? halve_u : halve_v)(shape, c.data(), first.data());
+        if (low_part) c = first;
+        keep(part, along_u, Exact(0.5), low_part);
+        for (std::size_t k = 0; k < c.size(); ++k)
+            shares.halving = std::max(shares.halving, share(c[k] - part[k], error));
+    }
+    std::uniform_real_distribution<double> parameter(-0.2, 1.2);
+    double u[2] = {parameter(random), parameter(random)}, v[2] = {parameter(random), parameter(random)};
+    if (u[0] > u[1]) std::swap(u[0], u[1]);
+    if (v[0] > v[1]) std::swap(v[0], v[1]);
+    // As the search uses it: parts that reach inside from both ends, or out by less than half a side.
+    if (u[1] < 0.3 || v[1] < 0.3 || u[0] > 0.7 || v[0] > 0.7) return;
+    c = start;
+    part = std::move(exact);
+    const double before = largest(c);
+    const double factor = restrict_u(shape, c.data(), u[0], u[1]) * restrict_v(shape, c.data(), v[0], v[1]);
+    error = (bound * factor + gamma_bound(6 * (shape.p + shape.q)) * factor * before) * bound_slack;
+    keep(part, true, Exact(u[1]), true);
+    keep(part, true, Exact(u[0]) / Exact(u[1]), false);
+    keep(part, false, Exact(v[1]), true);
+    keep(part, false, Exact(v[0]) / Exact(v[1]), false);
+    for (std::size_t k = 0; k < c.size(); ++k)
+        shares.restriction = std::max(shares.restriction, share(c[k] - part[k], error));
+}
+
+void measure(const NurbsSurface& surface, unsigned seed, Shares& shares) {
+    std::mt19937 random(seed);
+    const int p = surface.u_degree(), q = surface.v_degree();
+    const BezierPatches patches = bezier_patches(surface);
+    const std::size_t chosen = random() % patches.patches.size();
+    const BezierPatch& patch = patches.patches[chosen];
+    const auto spans = [](const KnotVector& knots) {
+        std::vector<int> result;
+        for (int k = knots.degree(); k < knots.pole_count(); ++k)
+            if (knots.knots()[k] < knots.knots()[k + 1]) result.push_back(k);
+        return result;
+    };
+    const int u_span = spans(surface.u_knots())[chosen / patches.v_count];
+    const int v_span = spans(surface.v_knots())[chosen % patches.v_count];
+    const Net net = exact_patch(surface, u_span, v_span, patch.origin);
+    for (int k = 0; k < (patch.rational ? 4 : 3); ++k)
+        for (std::size_t at = 0; at < patch.poles.size(); ++at)
+            shares.extraction = std::max(shares.extraction, share(Exact(patch.poles[at][k]) - net[k][at],
+                                                                  k < 3 ? patch.position_error : patch.weight_error));
+
+    UmbilicEquations equations;
+    equations.form_fundamental(patch, input_rounding(surface));
+    equations.form_umbilic();
+    const Exact scale = scale_of(patch);
+    const Pair exact = exact_equations(net, p, q, surface.rational());
+    const Pair other = exact_equations(exact_patch(within_an_ulp(surface, random), u_span, v_span, patch.origin), p, q,
+                                       surface.rational());
+    const TensorPolynomial* computed[2] = {&equations.a(), &equations.b()};
+    const Power* wanted[2] = {&exact.a, &exact.b};
+    const Power* rounded[2] = {&other.a, &other.b};
+    for (int f = 0; f < 2; ++f) {
+        const CoefficientShape shape{computed[f]->u_degree, computed[f]->v_degree};
+        std::vector<double> c(shape.size());
+        const CoefficientBound bound = computed[f]->bernstein_coefficients(c);
+        std::vector<Exact> b = bernstein(*wanted[f], shape.p, shape.q);
+        const std::vector<Exact> b_rounded = bernstein(*rounded[f], shape.p, shape.q);
+        for (int k = 0; k < shape.size(); ++k) {
+            b[k] *= scale;
+            shares.rounding = std::max(shares.rounding, share(Exact(c[k]) - b[k], bound.rounding));
+            shares.input = std::max(shares.input, share(Exact(c[k]) - scale * b_rounded[k], bound.input));
+        }
+        expect_subdivision_within_bounds(c, std::move(b), shape, bound.rounding, random, shares);
+    }
+    // The pointwise enclosure holds the exact value.
+    std::uniform_real_distribution<double> parameter(-0.05, 1.05);
+    for (int k = 0; k < 3; ++k) {
+        const Vector2 at(parameter(random), parameter(random));
+        const std::array<Interval, 2> value = equations.enclose(at);
+        for (int f = 0; f < 2; ++f) {
+            Exact sum = 0, power_u = 1;
+            for (int i = 0; i <= wanted[f]->m; ++i, power_u *= Exact(at.x())) {
+                Exact power_v = power_u;
+                for (int j = 0; j <= wanted[f]->n; ++j, power_v *= Exact(at.y())) sum += wanted[f]->at(i, j) * power_v;
+            }
+            EXPECT_GE(scale * sum, Exact(value[f].low));
+            EXPECT_LE(scale * sum, Exact(value[f].high));
+        }
+    }
+    // The restriction to an edge.
+    const Edge edge = std::array{Edge::u_low, Edge::u_high, Edge::v_low, Edge::v_high}[random() % 4];
+    const EdgeEquations pair = equations.edge_equations(edge);
+    const bool across_u = edge == Edge::u_low || edge == Edge::u_high;
+    const bool high = edge == Edge::u_high || edge == Edge::v_high;
+    for (int f = 0; f < 2; ++f) {
+        const std::vector<double>& c = f == 0 ? pair.a : pair.b;
+        const Power& w = *wanted[f];
+        Power along(0, across_u ? w.n : w.m);
+        for (int i = 0; i <= w.m; ++i)
+            for (int j = 0; j <= w.n; ++j)
+                if (high || (across_u ? i : j) == 0) along.at(0, across_u ? j : i) += w.at(i, j);
+        const std::vector<Exact> b = bernstein(along, 0, static_cast<int>(c.size()) - 1);
+        for (std::size_t k = 0; k < c.size(); ++k)
+            shares.edge =
+                std::max(shares.edge, share(scale * b[k] - Exact(c[k]), f == 0 ? pair.a_error : pair.b_error));
+    }
+}
+
+/// Moved by up to `reach` and turned: the poles are rounded where they arrive.
+NurbsSurface shifted(const NurbsSurface& surface, unsigned seed, double reach) {
+    return support::transformed(surface, support::random_similarity(seed, 1.0, seed % 2 == 1, reach));
+}
+
+/// Degrees from 1 to 4 in one direction and 1 to 3 in the other.
+NurbsSurface random_patch(unsigned seed, double height, double weight_ratio) {
+    const int p = 1 + static_cast<int>(seed % 4), q = 1 + static_cast<int>(seed / 4 % 3);
+    return support::random_surface(p, std::max(q, p == 1 ? 2 : 1), p + 2 + static_cast<int>(seed % 2), q + 3, seed,
+                                   height, weight_ratio);
+}
+
+/// Two thousand times the size of the surfaces, which is about 1.
+constexpr double far = 2e3;
+
+struct Construction {
+    const char* name;
+    unsigned count;  ///< patches, 1000 in all
+    NurbsSurface (*surface)(unsigned seed);
+};
+
+double ratio(unsigned seed) {
+    return seed % 3 == 0 ? 2.0 : seed % 3 == 1 ? 10.0 : 100.0;
+}
+
+const Construction constructions[] = {
+    {"integral", 220, [](unsigned seed) { return random_patch(seed, 0.3, 1.0); }},
+    {"integral_far", 140, [](unsigned seed) { return shifted(random_patch(seed, 0.3, 1.0), seed, far); }},
+    {"tilted_planes", 100, [](unsigned seed) { return shifted(random_patch(seed, 0.0, 1.0), seed, 10.0); }},
+    {"tilted_planes_far", 100, [](unsigned seed) { return shifted(random_patch(seed, 0.0, 1.0), seed, far); }},
+    {"rational", 160, [](unsigned seed) { return random_patch(seed % 8 + 8 * (seed / 8), 0.3, ratio(seed)); }},
+    {"rational_far", 100, [](unsigned seed) { return shifted(random_patch(seed, 0.3, ratio(seed)), seed, far); }},
+    {"rational_planes", 60, [](unsigned seed) { return shifted(random_patch(seed, 0.0, ratio(seed)), seed, far); }},
+    {"uneven_knots", 100,
+     [](unsigned seed) {
+         // Random knots of every multiplicity, of low degrees.
+         unsigned number = 17 * seed;
+         while (true) {
+             support::RandomFace face = support::random_face(++number);
+             const int degrees = face.surface.u_degree() + face.surface.v_degree();
+             if (degrees <= (face.surface.rational() ? 5 : 8)) return face.surface;
+         }
+     }},
+    {"rational_bicubic", 20, [](unsigned seed) { return support::random_surface(3, 3, 4, 5, seed, 0.3, 100.0); }},
+};
+
+class CoefficientBounds : public testing::TestWithParam<Construction> {};
+
+TEST_P(CoefficientBounds, HoldAgainstMultiprecision) {
+    Shares shares;
+    for (unsigned seed = 0; seed < GetParam().count; ++seed) {
+        SCOPED_TRACE(seed);
+        measure(GetParam().surface(seed), seed, shares);
+    }
+    std::printf(
+        "%s, %u patches: largest share of the bound used by extraction %.3f, coefficients %.4f, perturbed input %.3f, "
+        "edges %.4f, halving %.4f, parts %.4f\n",
+        GetParam().name, GetParam().count, shares.extraction, shares.rounding, shares.input, shares.edge,
+        shares.halving, shares.restriction);
+    EXPECT_LE(shares.extraction, 1.0);
+    EXPECT_LE(shares.rounding, 1.0);
+    EXPECT_LE(shares.input, 1.0);
+    EXPECT_LE(shares.edge, 1.0);
+    EXPECT_LE(shares.halving, 1.0);
+    EXPECT_LE(shares.restriction, 1.0);
+    // The measure itself works: nothing is computed without an error.
+    EXPECT_GT(shares.rounding, 0.0);
+    EXPECT_GT(shares.input, shares.rounding * 1e-6);
+}
+
+INSTANTIATE_TEST_SUITE_P(Umbilics, CoefficientBounds, testing::ValuesIn(constructions),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+}  // namespace
+}  // namespace umbilic
