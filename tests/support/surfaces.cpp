@@ -143,6 +143,37 @@ NurbsSurface smooth_bicubic(int n, unsigned seed, double height) {
         [] { return 1.0; });
 }
 
+NurbsSurface revolved(const KnotVector& knots, const std::vector<Vector2>& points, const std::vector<double>& weights) {
+    const double w = std::sqrt(0.5);
+    const std::vector<Vector2> circle = {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}, {1, 0}};
+    std::vector<Vector3> poles;
+    std::vector<double> all;
+    for (std::size_t i = 0; i < circle.size(); ++i)
+        for (std::size_t j = 0; j < points.size(); ++j) {
+            poles.emplace_back(points[j].x() * circle[i].x(), points[j].x() * circle[i].y(), points[j].y());
+            all.push_back(weights[j] * (i % 2 == 1 ? w : 1.0));
+        }
+    return NurbsSurface(KnotVector(2, {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4}), knots, std::move(poles), std::move(all));
+}
+
+NurbsSurface full_sphere(double radius) {
+    const double r = radius, w = std::sqrt(0.5);
+    return revolved(KnotVector(2, {0, 0, 0, 1, 1, 2, 2, 2}), {{0, -r}, {r, -r}, {r, 0}, {r, r}, {0, r}},
+                    {1, w, 1, w, 1});
+}
+
+NurbsSurface full_torus(double major, double minor) {
+    const double R = major, r = minor, w = std::sqrt(0.5);
+    return revolved(
+        KnotVector(2, {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4}),
+        {{R + r, 0}, {R + r, r}, {R, r}, {R - r, r}, {R - r, 0}, {R - r, -r}, {R, -r}, {R + r, -r}, {R + r, 0}},
+        {1, w, 1, w, 1, w, 1, w, 1});
+}
+
+NurbsSurface full_cone(double r0, double r1, double height) {
+    return revolved(KnotVector::bezier(1), {{r0, 0}, {r1, height}}, {1, 1});
+}
+
 NurbsSurface rough_bicubic(int n, unsigned seed, double height) {
     return random_surface(3, 3, n, n, seed, height);
 }

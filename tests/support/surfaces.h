@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include <umbilic/core/similarity_transform.h>
 #include <umbilic/model/model.h>
@@ -28,6 +29,16 @@ NurbsSurface ellipsoid_octant(double a, double b, double c);
 /// Exact rational biquadratic torus quarter-by-quarter patch set as one surface: 90 degrees of each circle, radii R >
 /// r.
 NurbsSurface torus_quarter(double major, double minor);
+
+/// Exact surface of revolution about the z axis, in four quarters along u: the quadratic profile with the points (x,
+/// z), x >= 0, and the weights given, along v. A closed profile makes a surface closed in v. Normal r_u x r_v.
+NurbsSurface revolved(const KnotVector& knots, const std::vector<Vector2>& points, const std::vector<double>& weights);
+/// Full sphere about the origin; u the longitude from the x axis, v from the south to the north pole; normal outward.
+NurbsSurface full_sphere(double radius);
+/// Full torus about the z axis; normal outward.
+NurbsSurface full_torus(double major, double minor);
+/// Full cone frustum about the z axis of radius r0 at z = 0 and r1 at z = height (a cylinder if equal); normal outward.
+NurbsSurface full_cone(double r0, double r1, double height);
 
 /// Bicubic B-spline graph over [0, 1]^2, n x n poles, uniform clamped knots, heights from a few sines ("smooth") with
 /// the given seed.

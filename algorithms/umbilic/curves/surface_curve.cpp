@@ -19,6 +19,8 @@ const char* name(CurveEnd end) {
             return "umbilic";
         case CurveEnd::closed:
             return "closed";
+        case CurveEnd::evolute:
+            return "evolute";
         case CurveEnd::point:
             return "point";
     }

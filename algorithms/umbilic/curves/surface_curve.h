@@ -17,6 +17,7 @@ enum class CurveEnd {
     trim,      ///< a trimming loop inside the surface, with no face to go on to
     umbilic,   ///< the direction of a line of curvature is lost
     closed,    ///< the curve came back to its start
+    evolute,   ///< the projection of a curve is not defined: its foot is a centre of curvature
     point      ///< an end that was given, or where the curve was started
 };
 
