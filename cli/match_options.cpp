@@ -94,7 +94,10 @@ void add_match_options(CLI::App& subcommand, MatchWords& words) {
     add("--umbilic_boxes", words.features.umbilics.boxes_per_patch, "Boxes the umbilic search may use on a patch",
         CLI::PositiveNumber);
     add("--umbilic_margin", words.features.umbilics.generic_margin,
-        "Relative distance from a dividing curve within which a type is non-generic", CLI::NonNegativeNumber);
+        "Relative error of the cubic forms that is assumed on top of rounding", CLI::NonNegativeNumber);
+    add("--umbilic_accuracy", words.features.umbilics.accuracy,
+        "How far (mm) control points may be from where they should be: types that this changes are non-generic",
+        CLI::NonNegativeNumber);
 }
 
 void read_given_poses(MatchWords& words) {

@@ -76,7 +76,12 @@ void add_umbilics(CLI::App& application, Session& session, Command& command) {
         ->check(CLI::PositiveNumber);
     subcommand
         ->add_option("--umbilic_margin", options->search.generic_margin,
-                     "Relative distance from a dividing curve within which a type is called non-generic")
+                     "Relative error of the cubic forms that is assumed on top of rounding")
+        ->check(CLI::NonNegativeNumber);
+    subcommand
+        ->add_option("--accuracy,--umbilic_accuracy", options->search.accuracy,
+                     "How far (mm) control points may be from where they should be: types that this changes are "
+                     "called non-generic")
         ->check(CLI::NonNegativeNumber);
     add_common_options(*subcommand, session);
     subcommand->callback([&session, &command, options] {

@@ -99,6 +99,9 @@ std::vector<LocatedUmbilic> isolated_umbilics(const PreparedModel& prepared) {
 Json umbilic_json(const Face& face, const Umbilic& umbilic) {
     const Vector2 native = native_parameters(face, umbilic.at.u, umbilic.at.v);
     const UmbilicClass& kind = umbilic.kind;
+    Json neighbours = Json::array();
+    for (const GenericType type : kind.neighbours) neighbours.push_back(name(type));
+    const ClassUncertainty& uncertainty = kind.uncertainty;
     Json directions = Json::array();
     for (const Vector3& direction : umbilic.directions) directions.push_back(vector_json(direction));
     return {{"u", number_json(native.x())},
@@ -115,6 +118,16 @@ Json umbilic_json(const Face& face, const Umbilic& umbilic) {
             {"radius", number_json(umbilic.radius)},
             {"type", name(kind.type)},
             {"star", kind.star == StarKind::none ? Json(nullptr) : Json(name(kind.star))},
+            {"neighbours", std::move(neighbours)},
+            {"ridges", optional_json(kind.ridges)},
+            {"margin", number_json(umbilic.margin)},
+            {"uncertainty",
+             {{"kappa", number_json(umbilic.kappa_error)},
+              {"cubic", number_json(umbilic.cubic_error)},
+              {"omega", uncertainty.omega ? number_json(*uncertainty.omega) : Json(nullptr)},
+              {"delta", number_json(uncertainty.delta)},
+              {"zeta", number_json(uncertainty.zeta)}}},
+            {"on_knot_line", umbilic.on_knot_line},
             {"flat", umbilic.flat},
             {"index", number_json(umbilic.index)},
             {"directions", std::move(directions)},

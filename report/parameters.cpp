@@ -94,8 +94,11 @@ std::vector<Parameter> match_parameters(const FeatureOptions& features, const Ma
     parameters.push_back(constant("umbilic_boxes", search.boxes_per_patch, search_defaults.boxes_per_patch, "1",
                                   "boxes of the search per Bezier patch <= umbilic_boxes"));
     parameters.push_back(constant("umbilic_margin", search.generic_margin, search_defaults.generic_margin, "1",
-                                  "an umbilic is non-generic if its distance from a dividing curve, relative, is <= "
-                                  "umbilic_margin"));
+                                  "relative error assumed of a cubic form on top of rounding: an umbilic is "
+                                  "non-generic if a form within its error has another type"));
+    parameters.push_back(constant("umbilic_accuracy", search.accuracy, search_defaults.accuracy, "mm",
+                                  "displacement of the surfaces' control points whose effect on the cubic forms is "
+                                  "counted as their error, on top of rounding and conversion"));
     return parameters;
 }
 

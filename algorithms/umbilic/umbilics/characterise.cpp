@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 #include <umbilic/bernstein/rounding.h>
 #include <umbilic/differential/fundamental_forms.h>
+#include <umbilic/umbilics/sensitivity.h>
 
 namespace umbilic {
 
@@ -20,38 +23,144 @@ double parameter_rounding(const ParameterInterval& interval) {
     return 4 * unit_roundoff * (std::abs(interval.low) + std::abs(interval.high));
 }
 
-/// Bound on the error of the normal curvature: the input's rounding seen by the second derivatives (a difference of
-/// order 2 of control points multiplies it by at most 4), that of the first, and the way to the true umbilic.
-double curvature_error(const NurbsSurface& surface, const BezierPatch& patch, const InputRounding& input,
-                       const SurfaceDerivatives& d, const Umbilic& umbilic, double distance) {
-    const double p = surface.u_degree(), q = surface.v_degree();
-    const double du = patch.domain.u.length(), dv = patch.domain.v.length();
-    double lightest = 1.0, heaviest = 1.0;
+/// Distance from a knot line, relative to the domain's side, below which an umbilic is taken to lie on it: surfaces
+/// that are meant to be the same differ by this much after an exchange of files.
+constexpr double knot_reach = 1e-6;
+/// Factor that covers what is of second order in the displacement, for as long as the metric changes by less than
+/// `greatest_metric_change`.
+constexpr double second_order = 2.0;
+constexpr double greatest_metric_change = 0.1;
+
+/// Displacement (mm) of the control points that stands for all rounding: of the input, of the weights, and of an
+/// evaluation, which sums (p + 1)(q + 1) products of rounded numbers.
+double rounding_displacement(const BezierPatch& patch, const InputRounding& input) {
+    double result = (2 * (patch.u_degree + patch.v_degree) + 5) * input.position;
     if (patch.rational) {
-        lightest = heaviest = patch.poles[0][3];
+        BoundingBox box;
+        double lightest = patch.poles[0][3];
         for (const Vector4& pole : patch.poles) {
             lightest = std::min(lightest, pole[3]);
-            heaviest = std::max(heaviest, pole[3]);
+            box.add(Vector3(pole.head<3>() / pole[3]));
         }
+        // A change of one weight moves the surface as a displacement of its control point towards the surface does.
+        result += input.weight / lightest * box.diagonal();
     }
-    // Evaluation sums (p + 1)(q + 1) products of rounded numbers.
-    const double terms = 2 * (p + q) + 4;
-    const double position = terms * input.position * heaviest / lightest;
+    return result;
+}
+
+/// The error of a cubic form as a function of the control points' displacement. To first order it is cubic * t; the
+/// umbilic's way, part of it, grows as the umbilic comes nearer to |omega| = 1, where the derivative of the traceless
+/// second form, of least singular value 2 ||alpha| - |beta||, becomes singular. An error e of the form takes at most
+/// e (1 + 1 / sqrt(3)) / 2 from it.
+class CubicError {
+public:
+    /// `at_rest`: error without any displacement.
+    CubicError(const UmbilicSensitivity& sensitivity, const UmbilicClass& kind, double at_rest)
+        : growth_(second_order * sensitivity.cubic),
+          metric_(sensitivity.metric),
+          at_rest_(at_rest),
+          loss_((1 + 1 / std::sqrt(3.0)) / (4 * std::abs(std::abs(kind.alpha) - std::abs(kind.beta)))) {}
+
+    /// Solves e = at_rest + growth t / (1 - loss e).
+    double of(double displacement) const {
+        const double sum = at_rest_ + growth_ * displacement, linear = 1 + loss_ * at_rest_;
+        const double root = linear * linear - 4 * loss_ * sum;
+        if (!(root >= 0.0) || metric_ * displacement > greatest_metric_change)
+            return std::numeric_limits<double>::infinity();
+        return 2 * sum / (linear + std::sqrt(root));
+    }
+
+    /// The displacement at which the error reaches `error`.
+    double displacement(double error) const {
+        const double e = std::min(error, (1 + loss_ * at_rest_) / (2 * loss_));
+        if (!(e > at_rest_) || !std::isfinite(growth_)) return 0.0;
+        return std::min((e - at_rest_) * (1 - loss_ * e) / growth_, greatest_metric_change / metric_);
+    }
+
+private:
+    double growth_, metric_, at_rest_, loss_;
+};
+
+/// The break within `reach` of u across which third derivatives jump, if there is one. Across breaks of lower
+/// continuity the umbilic belongs to one side only.
+std::optional<double> jump_near(const KnotVector& knots, double u, double reach) {
+    for (std::size_t k = 1; k + 1 < knots.breaks().size(); ++k)
+        if (std::abs(knots.breaks()[k] - u) <= reach && knots.continuity(static_cast<int>(k)) == 2)
+            return knots.breaks()[k];
+    return std::nullopt;
+}
+
+/// Fills in curvature, cubic form and class from the derivatives of one polynomial piece, with their errors.
+/// `distance`: proved distance (mm) from the umbilic; `relative`: relative error of the form on top of the rest.
+void classify_piece(const SurfaceDerivatives& d, const UmbilicSensitivity& sensitivity, double distance,
+                    double displacement, double relative, Umbilic& umbilic) {
     const auto [E, F, G] = first_form(d);
-    const double determinant = E * G - F * F;
-    const double second =
-        4 * position *
-        (p * (p - 1) / (du * du) * G + 2 * p * q / (du * dv) * std::abs(F) + q * (q - 1) / (dv * dv) * E) /
-        (2 * determinant);
-    const double first = 4 * position * std::abs(umbilic.kappa) * (p / du / std::sqrt(E) + q / dv / std::sqrt(G)) *
-                         std::sqrt(E * G / determinant);
-    return second + first + distance * std::sqrt(umbilic.cubic.squared_norm());
+    const auto [L, M, N] = second_form(d);
+    umbilic.kappa = -(E * N + G * L - 2 * F * M) / (2 * (E * G - F * F));
+    umbilic.cubic = monge_form(d).cubic;
+    if (!std::isfinite(sensitivity.cubic)) {
+        umbilic.kappa_error = umbilic.cubic_error = std::numeric_limits<double>::infinity();
+        umbilic.kind = classify(umbilic.cubic, 1.0);
+        return;
+    }
+    const double norm = std::sqrt(umbilic.cubic.squared_norm());
+    umbilic.kappa_error = second_order * sensitivity.kappa * displacement + sensitivity.kappa_slope * distance;
+    umbilic.kind = classify(umbilic.cubic, 0.0);
+    const CubicError error(sensitivity, umbilic.kind, sensitivity.cubic_slope * distance + relative * norm);
+    umbilic.cubic_error = error.of(displacement);
+    umbilic.kind = classify(umbilic.cubic, norm > 0.0 ? std::min(1.0, umbilic.cubic_error / norm) : 1.0);
+    if (umbilic.kind.type != UmbilicType::non_generic) umbilic.margin = error.displacement(umbilic.kind.margin * norm);
+}
+
+/// The types that a class leaves open.
+std::vector<GenericType> possible_types(const UmbilicClass& kind) {
+    if (const std::optional<GenericType> type = generic_type(kind.type, kind.star)) return {*type};
+    return kind.neighbours;
+}
+
+/// Least distance of the values of omega, of which each has three.
+double omega_distance(std::complex<double> a, std::complex<double> b) {
+    double least = std::abs(a - b);
+    for (const double turn : {-1.0, 1.0})
+        least = std::min(least, std::abs(a - b * std::polar(1.0, turn * 2 * std::numbers::pi / 3)));
+    return least;
+}
+
+/// Widens the errors and the class so that they cover another piece's as well.
+void cover(Umbilic& umbilic, const Umbilic& other) {
+    const Cubic difference{umbilic.cubic.a - other.cubic.a, umbilic.cubic.b - other.cubic.b,
+                           umbilic.cubic.c - other.cubic.c, umbilic.cubic.d - other.cubic.d};
+    umbilic.cubic_error = std::max(umbilic.cubic_error, std::sqrt(difference.squared_norm()) + other.cubic_error);
+    umbilic.kappa_error = std::max(umbilic.kappa_error, other.kappa_error);
+
+    UmbilicClass& kind = umbilic.kind;
+    std::vector<GenericType> types = possible_types(kind);
+    const std::vector<GenericType> more = possible_types(other.kind);
+    types.insert(types.end(), more.begin(), more.end());
+    std::sort(types.begin(), types.end());
+    types.erase(std::unique(types.begin(), types.end()), types.end());
+    if (types.size() > 1) {
+        kind.type = UmbilicType::non_generic;
+        kind.star = StarKind::none;
+        kind.neighbours = std::move(types);
+    }
+    umbilic.margin = kind.type == UmbilicType::non_generic ? 0.0 : std::min(umbilic.margin, other.margin);
+    if (kind.ridges != other.kind.ridges) kind.ridges.reset();
+    kind.margin = std::min(kind.margin, other.kind.margin);
+    const ClassUncertainty& outer = other.kind.uncertainty;
+    kind.uncertainty.delta = std::max(kind.uncertainty.delta, std::abs(kind.delta - other.kind.delta) + outer.delta);
+    kind.uncertainty.zeta = std::max(kind.uncertainty.zeta, std::abs(kind.zeta - other.kind.zeta) + outer.zeta);
+    if (kind.uncertainty.omega && outer.omega)
+        kind.uncertainty.omega =
+            std::max(*kind.uncertainty.omega, omega_distance(*kind.omega, *other.kind.omega) + *outer.omega);
+    else
+        kind.uncertainty.omega.reset();
 }
 
 }  // namespace
 
 std::optional<Umbilic> characterise(const NurbsSurface& surface, const BezierPatch& patch, const IsolatedZero& zero,
-                                    const InputRounding& input, double generic_margin) {
+                                    const InputRounding& input, const InputAccuracy& accuracy) {
     const ParameterBox& domain = patch.domain;
     const ParameterBox whole = surface.domain();
     Umbilic result;
@@ -66,14 +175,7 @@ std::optional<Umbilic> characterise(const NurbsSurface& surface, const BezierPat
     const MongeForm monge = monge_form(d);
     result.normal = monge.normal;
     result.x_axis = monge.x;
-    result.cubic = monge.cubic;
-    const auto [E, F, G] = first_form(d);
-    const auto [L, M, N] = second_form(d);
-    result.kappa = -(E * N + G * L - 2 * F * M) / (2 * (E * G - F * F));
-    result.kind = classify(monge.cubic, generic_margin);
     result.index = 0.5 * zero.sign;
-    for (const double angle : result.kind.angles)
-        result.directions.push_back(std::cos(angle) * monge.x + std::sin(angle) * monge.y);
 
     // A zero outside the patch by less than its radius is moved onto the edge, by no more than the radius again.
     const double u_radius = (zero.radius.x() * domain.u.length() + parameter_rounding(domain.u)) * bound_slack;
@@ -84,8 +186,32 @@ std::optional<Umbilic> characterise(const NurbsSurface& surface, const BezierPat
     result.box = {{place(domain.u, zero.box.u.low), place(domain.u, zero.box.u.high)},
                   {place(domain.v, zero.box.v.low), place(domain.v, zero.box.v.high)}};
     result.certified = true;
+
+    const auto [E, F, G] = first_form(d);
     const double distance = (u_radius + u_moved) * std::sqrt(E) + (v_radius + v_moved) * std::sqrt(G);
-    result.flat = std::abs(result.kappa) <= curvature_error(surface, patch, input, d, result, distance);
+    const double displacement = rounding_displacement(patch, input) + accuracy.displacement;
+    const UmbilicSensitivity sensitivity = umbilic_sensitivity(surface, result.at.u, result.at.v, u_side, v_side);
+    classify_piece(d, sensitivity, distance, displacement, accuracy.cubic, result);
+    for (const double angle : result.kind.angles)
+        result.directions.push_back(std::cos(angle) * monge.x + std::sin(angle) * monge.y);
+
+    const double way = second_order * sensitivity.way * displacement / std::sqrt(E * G - F * F);
+    const std::optional<double> u_jump = jump_near(
+        surface.u_knots(), result.at.u, u_radius + u_moved + way * std::sqrt(G) + knot_reach * whole.u.length());
+    const std::optional<double> v_jump = jump_near(
+        surface.v_knots(), result.at.v, v_radius + v_moved + way * std::sqrt(E) + knot_reach * whole.v.length());
+    result.on_knot_line = u_jump || v_jump;
+    for (const Side u_other : {Side::left, Side::right})
+        for (const Side v_other : {Side::left, Side::right}) {
+            if ((!u_jump && u_other != u_side) || (!v_jump && v_other != v_side)) continue;
+            Umbilic other;
+            const double u = u_jump.value_or(result.at.u), v = v_jump.value_or(result.at.v);
+            classify_piece(surface.derivatives(u, v, 3, u_other, v_other),
+                           umbilic_sensitivity(surface, u, v, u_other, v_other), distance, displacement, accuracy.cubic,
+                           other);
+            cover(result, other);
+        }
+    result.flat = std::abs(result.kappa) <= result.kappa_error && std::isfinite(result.kappa_error);
     return result;
 }
 

@@ -9,9 +9,16 @@
 
 namespace umbilic {
 
-/// Everything about the umbilic that belongs to a proved zero of a patch: place, curvature, cubic form, type, radius.
-/// None if the surface is singular there (a pole).
+/// How well a surface is known, on top of the rounding of its numbers.
+struct InputAccuracy {
+    double displacement = 0.0;  ///< greatest distance (mm) of a control point from where it should be
+    double cubic = 0.0;         ///< relative error of a cubic form
+};
+
+/// Everything about the umbilic that belongs to a proved zero of a patch: place, curvature, cubic form, type, radius,
+/// with errors that follow from the radius, from rounding and from `accuracy`. Near a knot line across which third
+/// derivatives jump the class covers all sides. None if the surface is singular there (a pole).
 std::optional<Umbilic> characterise(const NurbsSurface& surface, const BezierPatch& patch, const IsolatedZero& zero,
-                                    const InputRounding& input, double generic_margin);
+                                    const InputRounding& input, const InputAccuracy& accuracy);
 
 }  // namespace umbilic

@@ -131,6 +131,7 @@ FaceUmbilics find_umbilics(const NurbsSurface& surface, const UmbilicOptions& op
         throw InvalidInput("umbilic search: the resolution must lie between 0 and 1");
     if (options.boxes_per_patch < 1) throw InvalidInput("umbilic search: boxes_per_patch must be at least 1");
     if (!(options.generic_margin >= 0.0)) throw InvalidInput("umbilic search: generic_margin must not be negative");
+    if (!(options.accuracy >= 0.0)) throw InvalidInput("umbilic search: the accuracy must not be negative");
 
     const BezierPatches patches = bezier_patches(surface);
     const InputRounding input = input_rounding(surface);
@@ -157,7 +158,8 @@ FaceUmbilics find_umbilics(const NurbsSurface& surface, const UmbilicOptions& op
             return ParameterBox{place(domain.u, box.u), place(domain.v, box.v)};
         };
         for (const IsolatedZero& zero : zeros.isolated) {
-            if (std::optional<Umbilic> umbilic = characterise(surface, patch, zero, input, options.generic_margin))
+            if (std::optional<Umbilic> umbilic =
+                    characterise(surface, patch, zero, input, {options.accuracy, options.generic_margin}))
                 candidates.push_back({std::move(*umbilic), zero, k});
             else
                 open.push_back({in_surface(zero.box), false});
@@ -174,7 +176,11 @@ FaceUmbilics find_umbilics(const NurbsSurface& surface, const UmbilicOptions& op
 
 FaceUmbilics find_umbilics(const Face& face, const UmbilicOptions& options, const Progress& progress) {
     FaceUmbilics result;
-    if (!answer_elementary(face, result)) result = find_umbilics(face.surface, options, progress);
+    if (!answer_elementary(face, result)) {
+        UmbilicOptions on_face = options;
+        on_face.accuracy += face.conversion_error;
+        result = find_umbilics(face.surface, on_face, progress);
+    }
     result.face = face.number;
     for (Umbilic& umbilic : result.umbilics) {
         umbilic.at.face = face.number;

@@ -15,9 +15,13 @@ struct UmbilicOptions {
     double resolution = 1e-3;
     /// Boxes a Bezier patch may use before what is left of it is returned undecided.
     int boxes_per_patch = 100000;
-    /// Relative distance from a dividing curve (|omega| = 1, Gamma_1, Gamma_2) within which a type is called
-    /// non-generic.
+    /// Relative error of the cubic forms that is assumed on top of what follows from the numbers' rounding and from
+    /// `accuracy`: a type that another one lies within is called non-generic.
     double generic_margin = 1e-6;
+    /// Greatest distance (mm) of a control point of the surface from where it should be. It widens the errors of
+    /// curvatures, cubic forms and types; existence is proved for the surface as given. A face adds the error of its
+    /// conversion.
+    double accuracy = 0.0;
     /// Also prove completeness by the winding along the boundary.
     bool certificate = true;
 };

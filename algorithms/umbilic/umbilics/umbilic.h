@@ -16,6 +16,16 @@ enum class UmbilicType { star, monstar, lemon, non_generic };
 /// Whether the cubic form of a star has three real root lines (elliptic) or one (hyperbolic).
 enum class StarKind { none, elliptic, hyperbolic };
 
+/// The four types that survive a small change of the surface.
+enum class GenericType { elliptic_star, hyperbolic_star, monstar, lemon };
+
+/// Bounds on the errors of the invariants of a cubic form that is known up to an error.
+struct ClassUncertainty {
+    double delta = 0.0;
+    double zeta = 0.0;
+    std::optional<double> omega;  ///< none where omega has no value or no bound
+};
+
 /// What the cubic form at an umbilic says (thesis 2.1.4 and Appendix A, with the corrections named in
 /// docs/numerics.md).
 struct UmbilicClass {
@@ -26,12 +36,29 @@ struct UmbilicClass {
     std::complex<double> zeta;  ///< alpha beta^3 / (|alpha|^2 + |beta|^2)^2, turns with no frame
     UmbilicType type = UmbilicType::non_generic;
     StarKind star = StarKind::none;
+    /// Where `type` is non_generic: the types that forms within the error have, two at least.
+    std::vector<GenericType> neighbours;
+    std::optional<int> ridges;  ///< ridge lines through the umbilic, 3 inside Gamma_1 and 1 outside; none on it
     std::vector<double>
-        angles;  ///< 1 or 3 directions of lines of curvature, radians from the frame's x axis, in [0, pi)
+        angles;           ///< 1 or 3 directions of lines of curvature, radians from the frame's x axis, in [0, pi)
+    double margin = 0.0;  ///< relative error of the cubic form up to which no dividing curve is met, at most 1
+    ClassUncertainty uncertainty;
 };
 
-/// Classifies a cubic form by discriminants. A form within the relative `margin` of a dividing curve is non_generic.
-UmbilicClass classify(const Cubic& cubic, double margin);
+/// Classifies a cubic form by discriminants: Gamma_1 (number of root lines and of ridges), |omega| = 1 (index) and
+/// Gamma_2 (number of lines of curvature). `relative_error` bounds the error of the form relative to its own size, both
+/// in the norm of Cubic::squared_norm(). If forms within it lie on different sides of a dividing curve the type is
+/// non_generic.
+UmbilicClass classify(const Cubic& cubic, double relative_error);
+
+UmbilicType type_of(GenericType type);
+StarKind star_of(GenericType type);
+/// None for non_generic.
+std::optional<GenericType> generic_type(UmbilicType type, StarKind star);
+
+/// The form with alpha = 1 and beta = omega in the frame of its own (thesis A.3): z = -(kappa / 2)(x^2 + y^2) +
+/// C(x, y) / 6 is a surface with this omega at the origin.
+Cubic cubic_of_omega(std::complex<double> omega);
 
 /// An isolated umbilical point of a face.
 struct Umbilic {
@@ -40,9 +67,16 @@ struct Umbilic {
     Vector3 normal = Vector3::UnitZ();  ///< r_u x r_v / |...| of the surface, whatever the face's orientation
     Vector3 x_axis = Vector3::UnitX();  ///< r_u / |r_u|: frame of `cubic`, with y = normal x x_axis
     double kappa = 0.0;                 ///< normal curvature, 1/mm, sign as in the thesis
+    double kappa_error = 0.0;           ///< bound on its error, 1/mm
     Cubic cubic;
+    double cubic_error = 0.0;  ///< bound on the norm of its error, 1/mm^2; may be infinite
     UmbilicClass kind;
-    bool flat = false;                ///< kappa is 0 within its error bound
+    bool flat = false;  ///< kappa is 0 within its error bound
+    /// Displacement of the surface's control points, mm, up to which the type stays what it is; 0 if it is non-generic.
+    double margin = 0.0;
+    /// The umbilic lies on, or within reach of, a knot line across which third derivatives jump: `kind` then covers the
+    /// cubic forms of all sides.
+    bool on_knot_line = false;
     double index = 0.0;               ///< -0.5 for a star, +0.5 for lemon and monstar
     std::vector<Vector3> directions;  ///< unit tangents of the lines of curvature that run into it
     ParameterBox box;                 ///< box inside which existence and uniqueness were proved
@@ -102,6 +136,7 @@ struct FaceUmbilics {
 /// Lower-case words of the JSON results.
 const char* name(UmbilicType type);
 const char* name(StarKind kind);
+const char* name(GenericType type);
 const char* name(UmbilicRegionKind kind);
 
 }  // namespace umbilic
