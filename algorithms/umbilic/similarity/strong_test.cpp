@@ -59,8 +59,11 @@ std::vector<Candidate> candidates(const PlacedModel& model, const PlacedModel& o
 
 bool types_agree(const Umbilic& a, const Umbilic& b) {
     if (a.kind.type == b.kind.type) return true;
-    return classify(a.cubic, type_margin).type == UmbilicType::non_generic ||
-           classify(b.cubic, type_margin).type == UmbilicType::non_generic;
+    // A type that both may have.
+    for (const GenericType one : classify(a.cubic, type_margin).possible_types())
+        for (const GenericType other : classify(b.cubic, type_margin).possible_types())
+            if (type_of(one) == type_of(other)) return true;
+    return false;
 }
 
 std::string in_words(int count, const char* noun) {

@@ -9,8 +9,8 @@
 
 namespace umbilic {
 
-/// Relative margin around the dividing curves of the types (|omega| = 1, Gamma_1, Gamma_2) within which two umbilics of
-/// different types may still be the same one: re-approximation moves omega by a few percent.
+/// Relative error of the cubic forms within which two umbilics of different types may still be the same one, if both
+/// may have one type: re-approximation moves omega by a few percent.
 inline constexpr double type_margin = 0.05;
 
 /// The isolated umbilics inside a model's faces, in the order of faces and then of the search: the indices in

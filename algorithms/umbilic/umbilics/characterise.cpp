@@ -112,12 +112,6 @@ void classify_piece(const SurfaceDerivatives& d, const UmbilicSensitivity& sensi
     if (umbilic.kind.type != UmbilicType::non_generic) umbilic.margin = error.displacement(umbilic.kind.margin * norm);
 }
 
-/// The types that a class leaves open.
-std::vector<GenericType> possible_types(const UmbilicClass& kind) {
-    if (const std::optional<GenericType> type = generic_type(kind.type, kind.star)) return {*type};
-    return kind.neighbours;
-}
-
 /// Least distance of the values of omega, of which each has three.
 double omega_distance(std::complex<double> a, std::complex<double> b) {
     double least = std::abs(a - b);
@@ -134,8 +128,8 @@ void cover(Umbilic& umbilic, const Umbilic& other) {
     umbilic.kappa_error = std::max(umbilic.kappa_error, other.kappa_error);
 
     UmbilicClass& kind = umbilic.kind;
-    std::vector<GenericType> types = possible_types(kind);
-    const std::vector<GenericType> more = possible_types(other.kind);
+    std::vector<GenericType> types = kind.possible_types();
+    const std::vector<GenericType> more = other.kind.possible_types();
     types.insert(types.end(), more.begin(), more.end());
     std::sort(types.begin(), types.end());
     types.erase(std::unique(types.begin(), types.end()), types.end());

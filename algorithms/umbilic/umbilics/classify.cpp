@@ -207,6 +207,11 @@ UmbilicClass classify(const Cubic& cubic, double relative_error) {
     return result;
 }
 
+std::vector<GenericType> UmbilicClass::possible_types() const {
+    if (const std::optional<GenericType> generic = generic_type(type, star)) return {*generic};
+    return neighbours;
+}
+
 Cubic cubic_of_omega(Complex omega) {
     return {6 * omega.real() + 2, 2 * omega.imag(), 2 * omega.real() - 2, 6 * omega.imag()};
 }

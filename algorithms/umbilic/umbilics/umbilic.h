@@ -43,6 +43,9 @@ struct UmbilicClass {
         angles;           ///< 1 or 3 directions of lines of curvature, radians from the frame's x axis, in [0, pi)
     double margin = 0.0;  ///< relative error of the cubic form up to which no dividing curve is met, at most 1
     ClassUncertainty uncertainty;
+
+    /// The one type of a generic umbilic, the neighbours of a non-generic one.
+    std::vector<GenericType> possible_types() const;
 };
 
 /// Classifies a cubic form by discriminants: Gamma_1 (number of root lines and of ridges), |omega| = 1 (index) and
