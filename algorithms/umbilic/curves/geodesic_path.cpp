@@ -42,34 +42,29 @@ bool rates(const PathState& y, const SurfaceDerivatives& d, PathState& rate) {
     const Vector2 acceleration = geodesic_acceleration(d, velocity);
     const SecondForm second = second_form(d);
     const double gauss = (second.L * second.N - second.M * second.M) / first_form(d).determinant();
-    rate = {y[2], y[3], acceleration.x(), acceleration.y(), y[5], -gauss * y[4]};
+    rate = {y[2], y[3], acceleration.x(), acceleration.y(), y[5], -gauss * y[4], 0.0};
     return acceleration.allFinite();
 }
 
-/// Keeps the tangent in space and its length.
 void enter(int, const SurfaceDerivatives& before, const SurfaceDerivatives& after, PathState& y) {
-    const Vector3 tangent = before.r_u() * y[2] + before.r_v() * y[3];
-    const Vector3 normal = unit_normal(after);
-    const Vector3 along = (tangent - tangent.dot(normal) * normal).normalized() * tangent.norm();
+    carry_tangent(before, after, y);
     // Seen from the other side of the surface the Jacobi field changes its sign.
-    if (normal.dot(unit_normal(before)) < 0.0) {
+    if (unit_normal(after).dot(unit_normal(before)) < 0.0) {
         y[4] = -y[4];
         y[5] = -y[5];
     }
-    const Vector2 velocity = tangent_components(after, along);
-    y[2] = velocity.x();
-    y[3] = velocity.y();
 }
 
 PathSystem geodesic_system(const ParameterBox& domain, double size) {
     PathSystem system;
-    system.rates = [domain, size](double, const PathState& y, const std::array<SurfaceDerivatives, 2>& surfaces,
-                                  PathState& rate) {
-        return !at_pole(surfaces[0], domain, size) && rates(y, surfaces[0], rate);
+    system.rates = [domain, size](double, const PathState& y, const ChartSurfaces& surfaces,
+                                  PathState& rate) -> std::optional<CurveEnd> {
+        if (at_pole(surfaces[0], domain, size) || !rates(y, surfaces[0], rate)) return CurveEnd::boundary;
+        return std::nullopt;
     };
     system.enter = enter;
     // An error of the tangent is an angle; over the face it grows to a distance.
-    system.error = [size](const PathState& e, const std::array<SurfaceDerivatives, 2>& surfaces) {
+    system.error = [size](const PathState& e, const ChartSurfaces& surfaces) {
         const SurfaceDerivatives& d = surfaces[0];
         return (d.r_u() * e[0] + d.r_v() * e[1]).norm() + size * (d.r_u() * e[2] + d.r_v() * e[3]).norm();
     };
@@ -127,7 +122,7 @@ std::optional<Restart> through_pole(const Face& face, const PathState& y) {
         const Vector3 along = (low ? 1.0 : -1.0) * (k == 0 ? d.r_u() : d.r_v()).normalized();
         const Vector2 velocity = tangent_components(d, along);
         Restart restart;
-        restart.state = {start.x(), start.y(), velocity.x(), velocity.y(), y[4], y[5]};
+        restart.state = {start.x(), start.y(), velocity.x(), velocity.y(), y[4], y[5], 0.0};
         restart.skipped = (d.r() - at_end.r()).norm() + (at_end.r() - here.r()).norm();
         restart.state[4] += restart.skipped * y[5];
         return restart;
@@ -144,6 +139,15 @@ Vector2 geodesic_acceleration(const SurfaceDerivatives& d, const Vector2& veloci
             -(c.v_uu * p * p + 2 * c.v_uv * p * q + c.v_vv * q * q)};
 }
 
+void carry_tangent(const SurfaceDerivatives& before, const SurfaceDerivatives& after, PathState& y) {
+    const Vector3 tangent = before.r_u() * y[2] + before.r_v() * y[3];
+    const Vector3 normal = unit_normal(after);
+    const Vector3 along = (tangent - tangent.dot(normal) * normal).normalized() * tangent.norm();
+    const Vector2 velocity = tangent_components(after, along);
+    y[2] = velocity.x();
+    y[3] = velocity.y();
+}
+
 SurfacePath geodesic_path(const Face& face, const Vector2& start, const Vector3& direction, double length,
                           const GeodesicBounds& bounds, const Progress& progress) {
     const double size = extent(face);
@@ -152,7 +156,7 @@ SurfacePath geodesic_path(const Face& face, const Vector2& start, const Vector3&
     const Vector3 normal = unit_normal(d);
     const Vector3 tangent = (direction - direction.dot(normal) * normal).normalized();
     const Vector2 velocity = tangent_components(d, tangent);
-    PathState state = {start.x(), start.y(), velocity.x(), velocity.y(), 0.0, 1.0};
+    PathState state = {start.x(), start.y(), velocity.x(), velocity.y(), 0.0, 1.0, 0.0};
     SurfacePathOptions options{.length = length,
                                .tolerance = bounds.tolerance * size,
                                .longest_step = std::min(longest_step * size, length),
@@ -174,7 +178,6 @@ SurfacePath geodesic_path(const Face& face, const Vector2& start, const Vector3&
         result.error += more.error;
         result.length = before + restart->skipped + more.length;
     }
-    if (result.ended == CurveEnd::evolute) result.ended = CurveEnd::boundary;
     return result;
 }
 

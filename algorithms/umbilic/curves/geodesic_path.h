@@ -9,6 +9,10 @@ namespace umbilic {
 /// Acceleration (u'', v'') of a geodesic of the velocity (p, q): -Gamma p q (thesis (2.21)-(2.22)).
 Vector2 geodesic_acceleration(const SurfaceDerivatives& d, const Vector2& velocity);
 
+/// Carries the velocity in the components 2 and 3 of a state to another piece or face at the same point: the tangent in
+/// space and its length stay, up to the bend between the two.
+void carry_tangent(const SurfaceDerivatives& before, const SurfaceDerivatives& after, PathState& y);
+
 /// State of a geodesic by arc length: u, v, p = u', q = v', and the Jacobi field J with its derivative (J'' = -K J,
 /// J(0) = 0, J'(0) = 1): turning the start by an angle moves a point sideways by J times that angle.
 struct GeodesicState {

@@ -73,20 +73,25 @@ struct Run {
     std::array<double, 2> sizes{};
     PathState y{};
     double s = 0.0, step = 0.0;
-    std::array<SurfaceDerivatives, 2> surfaces{};
-    bool defined = true;
+    ChartSurfaces surfaces{};
+    std::optional<CurveEnd> undefined{};  ///< of the last evaluation
     Stepper stepper{};
     SurfacePath path{};
     int crossings = 0;
 
-    PathState rates(double at, const PathState& state) {
-        PathState rate{};
+    bool evaluate(const PathState& state) {
         bool sound = true;
         for (int chart = 0; chart < system.charts; ++chart) {
             surfaces[chart] = pieces[chart].derivatives(parameters_of(state, chart));
             sound = sound && surfaces[chart].r().allFinite();
         }
-        defined = sound && system.rates(at, state, surfaces, rate);
+        return sound;
+    }
+
+    PathState rates(double at, const PathState& state) {
+        PathState rate{};
+        const bool sound = evaluate(state);
+        undefined = sound ? system.rates(at, state, surfaces, rate) : CurveEnd::boundary;
         return rate;
     }
 
@@ -108,24 +113,28 @@ struct Run {
 
     /// One step. False if the path ends before it.
     bool advance() {
+        if (system.begin_step) {
+            evaluate(y);
+            system.begin_step(s, surfaces);
+        }
         const PathState rate0 = rates(s, y);
-        if (!defined) {
-            path.ended = CurveEnd::evolute;
+        if (undefined) {
+            path.ended = *undefined;
             return false;
         }
         const double limit = next_break();
         while (true) {
             const double h = std::min(step, limit - s);
             PathState y1{}, rate1{}, difference{};
-            bool sound = true;
+            std::optional<CurveEnd> end;
             stepper.do_step(
                 [&](const PathState& at, PathState& rate, double t) {
                     rate = rates(t, at);
-                    sound = sound && defined;
+                    if (!end) end = undefined;
                 },
                 y, rate0, s, y1, rate1, h, difference);
-            const double error = sound ? system.error(difference, surfaces) : 0.0;
-            sound = sound && std::isfinite(error);
+            const double error = end ? 0.0 : system.error(difference, surfaces);
+            const bool sound = !end && std::isfinite(error);
             double factor = least_factor;
             if (sound)
                 factor = error > 0.0 ? std::clamp(safety * std::pow(options.tolerance / error, 1.0 / error_order),
@@ -144,7 +153,11 @@ struct Run {
             }
             step = h * std::min(factor, safety);
             if (step < shortest_step * options.length) {
-                path.ended = CurveEnd::evolute;
+                if (!end)
+                    throw NumericFailure("face " + std::to_string(pieces[0].face->number) +
+                                         ": a curve cannot be continued at u = " + std::to_string(y[0]) +
+                                         ", v = " + std::to_string(y[1]) + "; the surface is not smooth enough there");
+                path.ended = *end;
                 return false;
             }
         }
@@ -375,7 +388,7 @@ SurfacePath follow(const PathSystem& system, const PathState& start, const std::
     return run.path;
 }
 
-SurfaceCurve sampled(const SurfacePath& path, int chart, double spacing) {
+SurfaceCurve sampled(const SurfacePath& path, int chart, double spacing, bool by_projected_length) {
     SurfaceCurve curve;
     curve.length = path.length;
     curve.error = path.error;
@@ -383,7 +396,8 @@ SurfaceCurve sampled(const SurfacePath& path, int chart, double spacing) {
     const auto add = [&](double s, const PathStep& step, const PathState& y) {
         const Vector2 p = parameters_of(y, chart);
         const SurfacePoint at{step.pieces[chart].face->number, p.x(), p.y()};
-        curve.points.push_back({s, at, step.pieces[chart].derivatives(p, 0).r()});
+        curve.points.push_back(
+            {by_projected_length ? y[projected_length] : s, at, step.pieces[chart].derivatives(p, 0).r()});
     };
     double next = 0.0;
     const int parts = spacing > 0.0 ? std::max(1, static_cast<int>(std::lround(path.length / spacing))) : 0;
@@ -406,6 +420,7 @@ SurfaceCurve sampled(const SurfacePath& path, int chart, double spacing) {
         }
         if (last_on_face) add(end, step, step.end);
     }
+    if (by_projected_length) curve.length = curve.points.empty() ? 0.0 : curve.points.back().s;
     return curve;
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include <umbilic/core/progress.h>
@@ -25,7 +26,7 @@ struct SmoothJoins {
 SmoothJoins smooth_joins(const FaceAdjacency& adjacency, double largest_bend = default_largest_bend);
 
 /// State of a system of ordinary differential equations on surfaces; components that a system does not use stay 0.
-using PathState = std::array<double, 6>;
+using PathState = std::array<double, 7>;
 
 /// A polynomial piece of a face's surface (see KnotVector::piece).
 struct FacePiece {
@@ -37,23 +38,27 @@ struct FacePiece {
 };
 
 /// At most two surfaces on which a path runs at the same time: the parameters of the first are components 0 and 1 of
-/// the state, those of the second components 4 and 5.
+/// the state, those of the second components 4 and 5. Component 6 holds the arc length of a projection.
 inline constexpr std::array<int, 2> chart_components = {0, 4};
+inline constexpr int projected_length = 6;
+
+/// Derivatives of order 2 of the charts' surfaces at a state.
+using ChartSurfaces = std::array<SurfaceDerivatives, 2>;
 
 /// Differential equations whose solutions run on surfaces (geodesics, projections).
 struct PathSystem {
     int charts = 1;
-    /// Derivative of the state by the path's parameter; false where it is not defined. `surfaces` holds the derivatives
-    /// of order 2 of each chart at the state.
-    std::function<bool(double s, const PathState& y, const std::array<SurfaceDerivatives, 2>& surfaces,
-                       PathState& rate)>
+    /// Derivative of the state by the path's parameter, or why there is none: the path ends there.
+    std::function<std::optional<CurveEnd>(double s, const PathState& y, const ChartSurfaces& surfaces, PathState& rate)>
         rates;
     /// Weighs the estimated error of a step: a length, mm.
-    std::function<double(const PathState& error, const std::array<SurfaceDerivatives, 2>& surfaces)> error;
+    std::function<double(const PathState& error, const ChartSurfaces& surfaces)> error;
     /// Adapts the state where a chart passes to another polynomial piece or face at the same point in space; the
     /// chart's parameters have their new values already. May be empty.
     std::function<void(int chart, const SurfaceDerivatives& before, const SurfaceDerivatives& after, PathState& y)>
         enter;
+    /// Called where a step begins, before its rates. May be empty.
+    std::function<void(double s, const ChartSurfaces& surfaces)> begin_step;
 };
 
 /// One step of a path: a quartic in the parameter (the continuous extension of Dormand and Prince's method).
@@ -92,14 +97,14 @@ struct SurfacePathOptions {
 
 /// Follows a solution from `start` on the given faces. Within polynomial pieces the rates are smooth; the integration
 /// (Boost.Odeint, Dormand and Prince 5(4)) stops at every knot line and starts anew in the next piece, so that its
-/// order is kept. It ends at a border of a chart, at a trimming loop, or with CurveEnd::evolute where the rates become
-/// undefined. References the system and the faces. Throws NumericFailure if steps become too short elsewhere.
+/// order is kept. It ends at a border of a chart, at a trimming loop, or where the rates are not defined. References
+/// the system and the faces. Throws NumericFailure if steps become too short elsewhere.
 SurfacePath follow(const PathSystem& system, const PathState& start, const std::array<const Face*, 2>& faces,
                    const SurfacePathOptions& options, const Progress& progress = {});
 
 /// Points of a chart of a path as a curve: at equal parts of about `spacing` of the parameter, or at the steps' ends
-/// if 0; s is the arc length if the path's parameter is.
-SurfaceCurve sampled(const SurfacePath& path, int chart, double spacing);
+/// if 0. s is the path's parameter, or the arc length of the projection where `by_projected_length`.
+SurfaceCurve sampled(const SurfacePath& path, int chart, double spacing, bool by_projected_length = false);
 
 /// Length that thresholds on a face are relative to: sqrt(area), mm. Throws InvalidInput if the face has no extent.
 double extent(const Face& face);
