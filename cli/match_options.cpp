@@ -43,11 +43,13 @@ void add_match_options(CLI::App& subcommand, MatchWords& words) {
     subcommand.add_option("SUSPECT", words.suspect, "STEP, IGES or BREP file that may be a copy")->required();
     const char* const group = "Pose";
     subcommand
-        .add_option("--method", words.match.method, "How poses are proposed: auto, umbilics, moments or curvature")
+        .add_option("--method", words.match.method,
+                    "How poses are proposed: auto, umbilics, moments, curvature or points")
         ->transform(CLI::CheckedTransformer(std::map<std::string, MethodChoice>{{"auto", MethodChoice::automatic},
                                                                                 {"umbilics", MethodChoice::umbilics},
                                                                                 {"moments", MethodChoice::moments},
-                                                                                {"curvature", MethodChoice::curvature}})
+                                                                                {"curvature", MethodChoice::curvature},
+                                                                                {"points", MethodChoice::points}})
                         .description(""))
         ->type_name("METHOD")
         ->group(group);

@@ -23,6 +23,8 @@ std::string word(MethodChoice choice) {
             return "moments";
         case MethodChoice::curvature:
             return "curvature";
+        case MethodChoice::points:
+            return "points";
     }
     return "auto";
 }

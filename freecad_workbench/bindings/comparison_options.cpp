@@ -109,7 +109,8 @@ CompareOptions comparison_options(const py::dict& keywords) {
                                                            {{"auto", MethodChoice::automatic},
                                                             {"umbilics", MethodChoice::umbilics},
                                                             {"moments", MethodChoice::moments},
-                                                            {"curvature", MethodChoice::curvature}});
+                                                            {"curvature", MethodChoice::curvature},
+                                                            {"points", MethodChoice::points}});
         } else if (name == "scale") {
             options.match.scale = scale_of(name, value);
         } else if (name == "mirror") {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <umbilic/matching/refine.h>
+#include <umbilic/matching/score.h>
 
 #include <cmath>
 #include <random>

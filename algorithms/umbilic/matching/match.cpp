@@ -29,19 +29,6 @@ constexpr int table_samples = 20000, seed_samples = 4000;
 /// Seeds looked up without the third order; on exact and re-approximated surfaces nearly every single seed succeeds.
 constexpr int second_order_seeds = 6;
 
-void check(const MatchOptions& options) {
-    if (options.tolerance && !(std::isfinite(*options.tolerance) && *options.tolerance > 0.0))
-        throw InvalidInput("match: the tolerance must be a positive length in mm");
-    if (options.scale.kind == ScaleChoice::Kind::range &&
-        !(options.scale.low > 0.0 && std::isfinite(options.scale.high) && options.scale.low <= options.scale.high))
-        throw InvalidInput("match: the range of the scale must be LOW:HIGH with 0 < LOW <= HIGH");
-    if (!(options.umbilic_invariant_tolerance > 0.0))
-        throw InvalidInput("match: the tolerance of umbilic invariants must be positive");
-    if (options.initial && !(options.initial->scale > 0.0 && options.initial->translation.allFinite() &&
-                             options.initial->rotation.allFinite()))
-        throw InvalidInput("match: the initial pose must be finite with a positive scale");
-}
-
 Proposals given_poses(const MatchOptions& options) {
     Proposals result;
     if (options.initial) {
@@ -98,9 +85,24 @@ private:
 
 }  // namespace
 
+void check_options(const MatchOptions& options) {
+    if (options.tolerance && !(std::isfinite(*options.tolerance) && *options.tolerance > 0.0))
+        throw InvalidInput("match: the tolerance must be a positive length in mm");
+    if (options.scale.kind == ScaleChoice::Kind::range &&
+        !(options.scale.low > 0.0 && std::isfinite(options.scale.high) && options.scale.low <= options.scale.high))
+        throw InvalidInput("match: the range of the scale must be LOW:HIGH with 0 < LOW <= HIGH");
+    if (!(options.umbilic_invariant_tolerance > 0.0))
+        throw InvalidInput("match: the tolerance of umbilic invariants must be positive");
+    if (options.initial && !(options.initial->scale > 0.0 && options.initial->translation.allFinite() &&
+                             options.initial->rotation.allFinite()))
+        throw InvalidInput("match: the initial pose must be finite with a positive scale");
+}
+
 Alignment match(const PreparedModel& original, const PreparedModel& suspect, const MatchOptions& options,
                 const Progress& progress) {
-    check(options);
+    check_options(options);
+    if (options.method == MethodChoice::points)
+        throw Unsupported("match: the method points needs a file of points as the suspect; use --method auto");
     PoseSearch search(original, suspect, options);
     std::string tried;
     const auto consider = [&](const Proposals& proposals, int keep, double error, const Progress& part) {

@@ -28,6 +28,9 @@ struct MatchOptions {
     double umbilic_invariant_tolerance = 0.15;
 };
 
+/// Throws InvalidInput if a number is out of its range.
+void check_options(const MatchOptions& options);
+
 /// Finds how the suspect lies on the original when nothing is known of pose, scale or handedness: every method the
 /// models allow proposes poses, all are scored by the same rule (share of area within tolerance, both ways), the best
 /// are refined by point-to-surface least squares (thesis chapter 4). If no method applies, status is not_found and

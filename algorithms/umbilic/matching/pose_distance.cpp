@@ -6,22 +6,20 @@
 
 namespace umbilic {
 
-ShapeSize shape_size(const Features& features) {
+ShapeSize shape_size(const std::vector<AreaSample>& samples) {
     ShapeSize size;
     double weight = 0.0, square = 0.0;
-    for (const AreaSample& sample : features.samples) {
+    for (const AreaSample& sample : samples) {
         size.centroid += sample.weight * sample.curvature.point;
         weight += sample.weight;
     }
     if (!(weight > 0.0)) return size;
     size.centroid /= weight;
-    for (const AreaSample& sample : features.samples)
+    for (const AreaSample& sample : samples)
         square += sample.weight * (sample.curvature.point - size.centroid).squaredNorm();
     size.length = 2.0 * std::sqrt(square / weight);
     return size;
 }
-
-PoseDistance::PoseDistance(const Features& suspect) : size_(shape_size(suspect)) {}
 
 double PoseDistance::relative(const SimilarityTransform& a, const SimilarityTransform& b) const {
     double greatest = (a.apply(size_.centroid) - b.apply(size_.centroid)).norm();

@@ -14,7 +14,10 @@ struct ShapeSize {
     double length = 0.0;  ///< twice the root mean square distance from the centroid, mm
 };
 
-ShapeSize shape_size(const Features& features);
+ShapeSize shape_size(const std::vector<AreaSample>& samples);
+inline ShapeSize shape_size(const Features& features) {
+    return shape_size(features.samples);
+}
 
 /// Two hypotheses that displace the suspect by less than this part of its length lead to the same refined pose.
 inline constexpr double same_hypothesis = 0.02;
@@ -30,7 +33,8 @@ struct DifferentPose {
 /// Compares poses of one suspect by what they do to it.
 class PoseDistance {
 public:
-    explicit PoseDistance(const Features& suspect);
+    explicit PoseDistance(const Features& suspect) : size_(shape_size(suspect)) {}
+    explicit PoseDistance(const std::vector<AreaSample>& suspect) : size_(shape_size(suspect)) {}
 
     /// Greatest displacement between the two poses of the centroid and of points half a length away from it along the
     /// axes, relative to the moved suspect's length (of the larger pose).

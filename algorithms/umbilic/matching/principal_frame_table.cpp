@@ -29,9 +29,6 @@ struct Positions {
 
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Positions>, Positions, 3>;
 
-/// Beyond this many sample steps of tangential offset a point lies past the border of the surface.
-constexpr double border_steps = 2.0;
-
 Cubic scaled(const Cubic& c, double factor) {
     return {c.a * factor, c.b * factor, c.c * factor, c.d * factor};
 }
@@ -105,6 +102,16 @@ PrincipalFrameTable::PrincipalFrameTable(const Model& model, int count, const Pr
             entries_[i] = {face.reversed ? flipped(frame) : frame, shape_signature(d, !face.reversed)};
         }
     });
+    step_ = entries_.empty() ? 0.0 : std::sqrt(model.area / static_cast<double>(entries_.size()));
+    arrange();
+}
+
+PrincipalFrameTable::PrincipalFrameTable(std::vector<Entry> entries, double step)
+    : entries_(std::move(entries)), step_(step) {
+    arrange();
+}
+
+void PrincipalFrameTable::arrange() {
     std::stable_sort(entries_.begin(), entries_.end(),
                      [](const Entry& a, const Entry& b) { return a.signature.angle < b.signature.angle; });
 
@@ -113,7 +120,6 @@ PrincipalFrameTable::PrincipalFrameTable(const Model& model, int count, const Pr
     double spread = 0.0;
     for (const Entry& entry : entries_) spread += (entry.frame.point - centroid).squaredNorm();
     extent_ = entries_.empty() ? 0.0 : 2 * std::sqrt(spread / static_cast<double>(entries_.size()));
-    step_ = entries_.empty() ? 0.0 : std::sqrt(model.area / static_cast<double>(entries_.size()));
     // The tree refers to the entries' storage, which stays where it is when the table is moved.
     index_ = std::make_unique<const Index>(entries_);
 }
@@ -126,17 +132,22 @@ std::pair<int, int> PrincipalFrameTable::angle_range(double low, double high) co
     return {static_cast<int>(first - entries_.begin()), static_cast<int>(last - entries_.begin())};
 }
 
-double PrincipalFrameTable::approximate_distance(const Vector3& point) const {
+const PrincipalFrameTable::Entry& PrincipalFrameTable::nearest(const Vector3& point) const {
     unsigned nearest = 0;
     double squared = 0.0;
     nanoflann::KNNResultSet<double, unsigned> result(1);
     result.init(&nearest, &squared);
     index_->tree.findNeighbors(result, point.data(), {});
-    const Curvature& frame = entries_[nearest].frame;
+    return entries_[nearest];
+}
+
+double PrincipalFrameTable::approximate_distance(const Vector3& point) const {
+    const Curvature& frame = nearest(point).frame;
     const Vector3 offset = point - frame.point;
+    const double squared = offset.squaredNorm();
     const double height = offset.dot(frame.normal);
     const double tangential = std::sqrt(std::max(0.0, squared - height * height));
-    return tangential <= border_steps * step_ ? std::abs(height) : std::sqrt(squared);
+    return tangential <= PrincipalFrameTable::border_steps * step_ ? std::abs(height) : std::sqrt(squared);
 }
 
 }  // namespace umbilic

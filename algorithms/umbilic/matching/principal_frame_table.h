@@ -33,6 +33,9 @@ ShapeSignature mirrored(const ShapeSignature& signature);
 /// Built once per model.
 class PrincipalFrameTable {
 public:
+    /// Beyond this many steps of tangential offset from the nearest sample a point lies past the border of the surface.
+    static constexpr double border_steps = 2.0;
+
     struct Entry {
         Curvature frame;
         ShapeSignature signature;
@@ -40,6 +43,8 @@ public:
 
     /// `count`: samples over the whole model. Throws Cancelled.
     PrincipalFrameTable(const Model& model, int count, const Progress& progress = {});
+    /// Entries found otherwise, `step` mm apart. Those whose magnitude is 0 take part in look-ups of positions only.
+    PrincipalFrameTable(std::vector<Entry> entries, double step);
     ~PrincipalFrameTable();
     PrincipalFrameTable(PrincipalFrameTable&&) noexcept;
 
@@ -52,11 +57,16 @@ public:
     /// Twice the root mean square distance of the samples from their centroid, mm.
     double extent() const { return extent_; }
 
+    /// The sample nearest to a point of space; the table must not be empty.
+    const Entry& nearest(const Vector3& point) const;
+
     /// Distance of a point from the surface, from its nearest sample: to that sample's tangent plane, or in full where
     /// the point lies beyond the border (tangential offset above two steps). Accurate to the sagitta over one step.
     double approximate_distance(const Vector3& point) const;
 
 private:
+    void arrange();
+
     struct Index;
     std::vector<Entry> entries_;
     std::unique_ptr<const Index> index_;

@@ -50,21 +50,19 @@ double size_of(std::span<const WeightedPoint> points) {
     return 2.0 * std::sqrt(square / weight);
 }
 
-std::vector<Foot> find_feet(const Ground& original, std::span<const WeightedPoint> points,
+std::vector<Foot> find_feet(const GroundSurface& original, std::span<const WeightedPoint> points,
                             const SimilarityTransform& pose, double cutoff) {
     std::vector<Foot> feet(points.size());
     tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
         Foot& foot = feet[i];
         foot.moved = pose.apply(points[i].point);
-        const auto closest = original.model.tree.closest(foot.moved, cutoff);
-        if (!closest || closest->distance > cutoff) return;
-        const auto normal = original.normals.at(closest->at);
-        if (!normal) return;
+        const auto closest = original.foot(foot.moved, cutoff);
+        if (!closest || !closest->normal) return;
         const Vector3 offset = foot.moved - closest->point;
-        foot.normal = *normal;
-        foot.residual = normal->dot(offset);
-        const double beside = (offset - foot.residual * *normal).norm();
-        foot.used = closest->kind == FootKind::interior || beside <= std::abs(foot.residual);
+        foot.normal = *closest->normal;
+        foot.residual = foot.normal.dot(offset);
+        const double beside = (offset - foot.residual * foot.normal).norm();
+        foot.used = !closest->at_border || beside <= std::abs(foot.residual);
     });
     return feet;
 }
@@ -178,8 +176,8 @@ double scale_deviation(const NormalEquations& equations) {
 
 }  // namespace
 
-Refinement refine(const Ground& original, std::span<const WeightedPoint> points, const SimilarityTransform& start,
-                  const RefineOptions& options, const Progress& progress) {
+Refinement refine(const GroundSurface& original, std::span<const WeightedPoint> points,
+                  const SimilarityTransform& start, const RefineOptions& options, const Progress& progress) {
     Refinement result{.original_suspect = start};
     if (points.empty()) return result;
     const double size = size_of(points);

@@ -8,7 +8,7 @@
 #include <umbilic/core/progress.h>
 #include <umbilic/core/similarity_transform.h>
 #include <umbilic/matching/choices.h>
-#include <umbilic/matching/score.h>
+#include <umbilic/matching/ground_surface.h>
 
 namespace umbilic {
 
@@ -55,7 +55,7 @@ inline constexpr double undetermined_motion = 1e-10;
 /// Gauss-Newton with Tukey weights whose cut-off shrinks with the lower quartile of the residuals, so that material
 /// foreign to the original loses its pull; points whose foot lies on a border and that hang over it are left out. Exact
 /// copies end within rounding.
-Refinement refine(const Ground& original, std::span<const WeightedPoint> points, const SimilarityTransform& start,
-                  const RefineOptions& options = {}, const Progress& progress = {});
+Refinement refine(const GroundSurface& original, std::span<const WeightedPoint> points,
+                  const SimilarityTransform& start, const RefineOptions& options = {}, const Progress& progress = {});
 
 }  // namespace umbilic

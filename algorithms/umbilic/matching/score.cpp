@@ -15,12 +15,10 @@ constexpr double nowhere = std::numeric_limits<double>::infinity();
 
 double sample_distance(const Ground& ground, const AreaSample& sample, const SimilarityTransform& ground_suspect,
                        double limit, bool oriented) {
-    const auto foot = ground.model.tree.closest(ground_suspect.apply(sample.curvature.point), limit);
-    if (!foot || foot->distance > limit) return nowhere;
-    if (foot->kind != FootKind::interior) return foot->distance;
-    const auto normal = ground.normals.at(foot->at);
-    if (!normal) return foot->distance;
-    const double cosine = normal->dot(ground_suspect.apply_direction(sample.curvature.normal));
+    const auto foot = ground.foot(ground_suspect.apply(sample.curvature.point), limit);
+    if (!foot) return nowhere;
+    if (foot->at_border || !foot->normal) return foot->distance;
+    const double cosine = foot->normal->dot(ground_suspect.apply_direction(sample.curvature.normal));
     return (oriented ? cosine : std::abs(cosine)) >= agreeing_cosine ? foot->distance : nowhere;
 }
 
@@ -32,6 +30,12 @@ double van_der_corput(unsigned index) {
 }
 
 }  // namespace
+
+std::optional<GroundFoot> Ground::foot(const Vector3& point, double limit) const {
+    const auto closest = model.tree.closest(point, limit);
+    if (!closest || closest->distance > limit) return {};
+    return GroundFoot{closest->point, normals.at(closest->at), closest->distance, closest->kind != FootKind::interior};
+}
 
 std::vector<double> sample_distances(const Ground& ground, const PreparedModel& suspect,
                                      const SimilarityTransform& ground_suspect, double limit) {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <umbilic/core/similarity_transform.h>
+#include <umbilic/matching/ground_surface.h>
 #include <umbilic/matching/outward_normals.h>
 #include <umbilic/matching/prepared_model.h>
 
@@ -14,11 +16,12 @@ namespace umbilic {
 inline constexpr double agreeing_cosine = 0.9;
 
 /// One model as the ground on which samples of another one are to lie.
-struct Ground {
+struct Ground : GroundSurface {
     const PreparedModel& model;
     OutwardNormals normals;
 
     explicit Ground(const PreparedModel& prepared) : model(prepared), normals(prepared.model) {}
+    std::optional<GroundFoot> foot(const Vector3& point, double limit) const override;
 };
 
 /// Distances (mm of the ground) of all samples of `suspect`, moved by `ground_suspect`, from the ground; infinity where

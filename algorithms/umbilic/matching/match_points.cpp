@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <umbilic/matching/match_points.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+
+#include <Eigen/Eigenvalues>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <umbilic/core/errors.h>
+#include <umbilic/matching/by_principal_frame.h>
+#include <umbilic/matching/horn.h>
+#include <umbilic/matching/pose_distance.h>
+#include <umbilic/matching/quadric.h>
+#include <umbilic/matching/refine.h>
+#include <umbilic/matching/score.h>
+#include <umbilic/matching/table_ground.h>
+#include <umbilic/matching/tolerances.h>
+
+namespace umbilic {
+
+namespace {
+
+/// Points that bring a hypothesis close, that compare poses, and that refine the best exactly.
+constexpr int rough_points = 120, near_points = 400, exact_points = 1500;
+constexpr int rough_steps = 15, near_steps = 20;
+/// Hypotheses refined on samples, and those of them that are refined further.
+constexpr int rough_poses = 24, near_poses = 8, exact_poses = 4;
+/// How far a hypothesis may be off, and one refined roughly, as a part of the suspect's length.
+constexpr double rough_cutoff = 0.15, near_cutoff = 0.05;
+/// Distances beyond this part of the length count as if they were no greater.
+constexpr double cost_limit = 0.02;
+/// Share of the original that counts as all of it.
+constexpr double whole = 0.95;
+/// Runners-up that are reported.
+constexpr std::size_t most_runners_up = 10;
+
+/// What the search needs of the original, a model or a cloud.
+struct Original {
+    const GroundSurface& exact;
+    const PrincipalFrameTable& table;
+    const std::vector<AreaSample>& samples;
+    double size = 0.0;    ///< sqrt(area), mm
+    double length = 0.0;  ///< mm
+    double noise = 0.0;   ///< mm
+    bool oriented = false;
+};
+
+struct Pose {
+    SimilarityTransform original_suspect;
+    MatchMethod method = MatchMethod::points;
+    Refinement refinement;
+    double cost = INFINITY;  ///< root mean square of the limited distances in the suspect's unit, mm
+};
+
+std::string printed(const char* format, double a, double b = 0.0) {
+    std::array<char, 160> text;
+    std::snprintf(text.data(), text.size(), format, a, b);
+    return text.data();
+}
+
+std::vector<WeightedPoint> spread(const std::vector<AreaSample>& samples, int count) {
+    if (static_cast<int>(samples.size()) <= count) {
+        std::vector<WeightedPoint> all;
+        for (const AreaSample& sample : samples) all.push_back({sample.curvature.point, sample.weight});
+        return all;
+    }
+    std::vector<WeightedPoint> points;
+    for (const int i : spread_samples(samples, count)) points.push_back({samples[i].curvature.point, 1.0});
+    return points;
+}
+
+class PointMatch {
+public:
+    PointMatch(const Original& original, const PreparedPoints& suspect, const MatchOptions& options)
+        : original_(original),
+          suspect_(suspect),
+          options_(options),
+          rough_(original.table),
+          distance_(suspect.samples),
+          few_(spread(suspect.samples, rough_points)),
+          some_(spread(suspect.samples, near_points)),
+          many_(spread(suspect.samples, exact_points)) {}
+
+    Alignment run(const Progress& progress) {
+        const std::vector<Pose> hypotheses = proposed(progress.part(0.0, 0.4));
+        std::vector<Pose> poses = refined(hypotheses, rough_, few_, rough_cutoff, rough_steps, progress.part(0.4, 0.6));
+        keep(poses, near_poses);
+        poses = refined(poses, rough_, some_, near_cutoff, near_steps, progress.part(0.6, 0.7));
+        keep(poses, exact_poses);
+        poses = refined(poses, original_.exact, many_, near_cutoff, RefineOptions().maximum_steps,
+                        progress.part(0.7, 0.95));
+        keep(poses, exact_poses);
+        return decided(poses, progress.part(0.95, 1.0));
+    }
+
+private:
+    std::vector<Pose> proposed(const Progress& progress) {
+        std::vector<Pose> poses;
+        if (options_.initial) poses.push_back({*options_.initial, MatchMethod::given});
+        if (!options_.pairs.empty()) {
+            std::vector<PointPair> pairs;
+            for (const auto& [original, suspect] : options_.pairs) pairs.push_back({original, suspect});
+            for (const bool mirrored : {false, true})
+                if (!mirrored || options_.mirror == MirrorChoice::automatic)
+                    poses.push_back({fit_points(pairs, {.free_scale = options_.scale.kind != ScaleChoice::Kind::fixed,
+                                                        .mirrored = mirrored})
+                                         .original_suspect,
+                                     MatchMethod::given});
+        }
+        const PrincipalFrameOptions frames{.third_order = false,
+                                           .keep = rough_poses,
+                                           .flip_normals = !(original_.oriented && suspect_.oriented),
+                                           .scale = options_.scale,
+                                           .mirror = options_.mirror};
+        progress.report(0.0, "looking up principal frames");
+        for (const PoseCandidate& pose : propose_by_principal_frame(original_.table, suspect_.table, frames, progress))
+            poses.push_back({pose.original_suspect, MatchMethod::points});
+        return poses;
+    }
+
+    /// Square root of the mean of the limited squared distances, in the suspect's unit.
+    double cost(const SimilarityTransform& pose, const GroundSurface& ground,
+                const std::vector<WeightedPoint>& points) const {
+        const double limit = std::max(cost_limit * suspect_.length, 2.0 * tolerance(1.0)) * pose.scale;
+        double square = 0.0, weight = 0.0;
+        for (const WeightedPoint& p : points) {
+            const auto foot = ground.foot(pose.apply(p.point), limit);
+            const double d = (foot ? foot->distance : limit) / pose.scale;
+            square += p.weight * d * d;
+            weight += p.weight;
+        }
+        return weight > 0.0 ? std::sqrt(square / weight) : INFINITY;
+    }
+
+    std::vector<Pose> refined(const std::vector<Pose>& poses, const GroundSurface& ground,
+                              const std::vector<WeightedPoint>& points, double cutoff, int steps,
+                              const Progress& progress) const {
+        std::vector<Pose> result = poses;
+        tbb::parallel_for(std::size_t{0}, result.size(), [&](std::size_t i) {
+            progress.check();
+            Pose& pose = result[i];
+            pose.refinement =
+                refine(ground, points, pose.original_suspect,
+                       {.scale = options_.scale, .start_cutoff = cutoff, .maximum_steps = steps}, progress);
+            pose.original_suspect = pose.refinement.original_suspect;
+            pose.cost = cost(pose.original_suspect, ground, points);
+        });
+        progress.report(1.0, "refining poses");
+        return result;
+    }
+
+    /// The best `count` that are not one hypothesis.
+    void keep(std::vector<Pose>& poses, int count) const {
+        std::stable_sort(poses.begin(), poses.end(), [](const Pose& a, const Pose& b) { return a.cost < b.cost; });
+        std::vector<Pose> kept;
+        for (Pose& pose : poses) {
+            if (static_cast<int>(kept.size()) == count) break;
+            if (std::none_of(kept.begin(), kept.end(), [&](const Pose& other) {
+                    return distance_.relative(pose.original_suspect, other.original_suspect) < same_hypothesis;
+                }))
+                kept.push_back(std::move(pose));
+        }
+        poses = std::move(kept);
+    }
+
+    /// Noise that the distances must be expected to have, in the suspect's unit.
+    double noise(double scale) const { return std::hypot(suspect_.noise, original_.noise / scale); }
+
+    /// Tolerance in mm of the original.
+    double tolerance(double scale) const {
+        return options_.tolerance.value_or(
+            scale * (PointDecision::noise_tolerance * noise(scale) + FitTolerance::reapproximated * suspect_.length));
+    }
+
+    std::vector<double> suspect_distances(const Pose& pose, double limit) const {
+        std::vector<double> distances(suspect_.samples.size());
+        tbb::parallel_for(std::size_t{0}, distances.size(), [&](std::size_t i) {
+            const auto foot =
+                original_.exact.foot(pose.original_suspect.apply(suspect_.samples[i].curvature.point), limit);
+            distances[i] = foot ? foot->distance : INFINITY;
+        });
+        return distances;
+    }
+
+    /// Of the original's samples from the suspect, mm of the original.
+    std::vector<double> original_distances(const Pose& pose, double limit) const {
+        const TableGround ground(suspect_.table);
+        const SimilarityTransform suspect_original = pose.original_suspect.inverse();
+        const double scale = pose.original_suspect.scale;
+        std::vector<double> distances(original_.samples.size());
+        tbb::parallel_for(std::size_t{0}, distances.size(), [&](std::size_t i) {
+            const auto foot = ground.foot(suspect_original.apply(original_.samples[i].curvature.point), limit / scale);
+            distances[i] = foot && !foot->at_border ? foot->distance * scale : INFINITY;
+        });
+        return distances;
+    }
+
+    PoseCandidate candidate(const Pose& pose) const {
+        const double within = tolerance(pose.original_suspect.scale);
+        const Coverage covered = coverage(suspect_.samples, suspect_distances(pose, within), within);
+        return {pose.original_suspect, pose.method, covered.share, 0.0, covered.rms, covered.max};
+    }
+
+    /// What keeps a pose that fits from being evidence; empty if nothing does.
+    std::string doubt(const Pose& pose, bool wholes) const {
+        const double scale = pose.original_suspect.scale;
+        const int n = options_.scale.kind == ScaleChoice::Kind::fixed ? 6 : 7;
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(pose.refinement.normal_matrix.topLeftCorner(n, n),
+                                                                    Eigen::EigenvaluesOnly);
+        const double weakest = std::sqrt(std::max(solver.eigenvalues()[0], 0.0));
+        if (!wholes && weakest * PointDecision::sliding * scale * suspect_.length < tolerance(scale))
+            return "the points can slide along the original within the tolerance, so that the pose is not determined";
+        std::vector<Vector3> points;
+        for (const AreaSample& sample : suspect_.samples) points.push_back(sample.curvature.point);
+        const double least = noise(scale) + FitTolerance::reapproximated * suspect_.length;
+        if (departure_from_quadric(points) < PointDecision::departure * least)
+            return "the points differ from a quadric by no more than their noise, and so fit many shapes";
+        return "";
+    }
+
+    Alignment decided(const std::vector<Pose>& poses, const Progress& progress) const {
+        Alignment result;
+        const std::string tried = "principal frames of the points' jets, noise " + printed("%.3g mm", suspect_.noise) +
+                                  " of the suspect's " + printed("%.3g mm", suspect_.length);
+        if (poses.empty()) {
+            result.why =
+                "No pose was proposed: the points have no well-determined principal frame that the original "
+                "has too; tried " +
+                tried + ".";
+            return result;
+        }
+        progress.check();
+        const Pose& best = poses.front();
+        const double scale = best.original_suspect.scale;
+        result.tolerance = tolerance(scale);
+        const Coverage suspect =
+            coverage(suspect_.samples, suspect_distances(best, result.tolerance), result.tolerance);
+        const Coverage original =
+            coverage(original_.samples, original_distances(best, result.tolerance), result.tolerance);
+        std::vector<const Pose*> equals;
+        for (std::size_t i = 1; i < poses.size() && result.runners_up.size() < most_runners_up; ++i) {
+            if (!distance_.different(best.original_suspect, poses[i].original_suspect)) continue;
+            result.runners_up.push_back(candidate(poses[i]));
+            // Below the tolerance of exact copies costs are rounding and jets' misfit.
+            const double floor = FitTolerance::exact * suspect_.length;
+            if (poses[i].cost < PointDecision::runner_up * best.cost + floor) equals.push_back(&poses[i]);
+        }
+        result.why = printed("%.1f %% of the points lie within %.3g mm", 100.0 * suspect.share, result.tolerance);
+        const double greatest_rms =
+            PointDecision::greatest_rms * std::max(noise(scale), 0.5 * FitTolerance::reapproximated * suspect_.length);
+        if (suspect.share < PointDecision::share) {
+            result.why = "No pose lays the points on the original: at best " + result.why + "; tried " + tried + ".";
+            result.runners_up.insert(result.runners_up.begin(), candidate(best));
+            return result;
+        }
+        result.method = best.method;
+        result.original_suspect = best.original_suspect;
+        result.scope = original.share >= whole ? MatchScope::global : MatchScope::partial;
+        result.rms = suspect.rms;
+        result.max = suspect.max;
+        result.relative_max = suspect.max / original_.size;
+        result.suspect_coverage = suspect.share;
+        result.original_coverage = original.share;
+        const std::string doubts = doubt(best, result.scope == MatchScope::global);
+        int strangers = 0;
+        for (const Pose* other : equals) {
+            if (is_symmetry(best, *other, result.tolerance))
+                result.symmetries.push_back(other->original_suspect);
+            else
+                ++strangers;
+        }
+        if (!options_.tolerance && suspect.rms > greatest_rms * scale) {
+            result.status = AlignmentStatus::compatible;
+            result.why += printed(", but their rms is %.3g times their noise", suspect.rms / (scale * noise(scale)));
+        } else if (!doubts.empty()) {
+            result.status = AlignmentStatus::compatible;
+            result.why += "; but " + doubts;
+        } else if (strangers > 0) {
+            result.status = AlignmentStatus::ambiguous;
+            result.why += "; but " + std::to_string(strangers) + " different pose" +
+                          (strangers > 1 ? "s fit" : " fits") + " as well";
+        } else {
+            result.status = AlignmentStatus::found;
+        }
+        result.why += printed("; the scale is known to %.2g %%", 100.0 * best.refinement.scale_deviation) +
+                      ". Tried: " + tried + ".";
+        return result;
+    }
+
+    /// True if the motion between two poses lays the original on itself where the suspect lies, or the suspect on
+    /// itself.
+    bool is_symmetry(const Pose& a, const Pose& b, double within) const {
+        const TableGround original(original_.table), suspect(suspect_.table);
+        const SimilarityTransform of_original = compose(b.original_suspect, a.original_suspect.inverse());
+        const SimilarityTransform of_suspect = compose(a.original_suspect.inverse(), b.original_suspect);
+        const auto laid = [](const GroundSurface& ground, const std::vector<AreaSample>& samples,
+                             const SimilarityTransform& motion, double limit) {
+            double inside = 0.0, all = 0.0;
+            for (const AreaSample& sample : samples) {
+                all += sample.weight;
+                if (ground.foot(motion.apply(sample.curvature.point), limit)) inside += sample.weight;
+            }
+            return inside >= PointDecision::share * all;
+        };
+        return laid(original, original_.samples, of_original, within) ||
+               laid(suspect, suspect_.samples, of_suspect, within / a.original_suspect.scale);
+    }
+
+    const Original& original_;
+    const PreparedPoints& suspect_;
+    const MatchOptions& options_;
+    TableGround rough_;
+    PoseDistance distance_;
+    std::vector<WeightedPoint> few_, some_, many_;
+};
+
+void check_method(const MatchOptions& options) {
+    if (options.method == MethodChoice::umbilics || options.method == MethodChoice::moments)
+        throw Unsupported(
+            "match: points have neither umbilics nor moments of their own; use --method auto, or fit a surface first "
+            "(umbilic fit)");
+}
+
+Alignment global_only(Alignment alignment, const MatchOptions& options) {
+    if (options.scope == ScopeChoice::global && alignment.status == AlignmentStatus::found &&
+        alignment.scope == MatchScope::partial) {
+        alignment.status = AlignmentStatus::compatible;
+        alignment.why = "Only a part coincides, and agreement as wholes was asked for: " + alignment.why;
+    }
+    return alignment;
+}
+
+}  // namespace
+
+Alignment match(const PreparedModel& original, const PreparedPoints& suspect, const MatchOptions& options,
+                const Progress& progress) {
+    check_options(options);  // before the work
+    const PrincipalFrameTable table(original.model, point_table_samples, progress.part(0.0, 0.2));
+    return match(original, table, suspect, options, progress.part(0.2, 1.0));
+}
+
+Alignment match(const PreparedModel& original, const PrincipalFrameTable& table, const PreparedPoints& suspect,
+                const MatchOptions& options, const Progress& progress) {
+    check_options(options);
+    check_method(options);
+    if (table.entries().empty()) throw InvalidInput(original.model.source.path + ": no face has a regular point");
+    const Ground ground(original);
+    const Original side{.exact = ground,
+                        .table = table,
+                        .samples = original.features.samples,
+                        .size = original.model.size(),
+                        .length = shape_size(original.features).length,
+                        .oriented = original.model.oriented()};
+    return global_only(PointMatch(side, suspect, options).run(progress), options);
+}
+
+Alignment match(const PreparedPoints& original, const PreparedPoints& suspect, const MatchOptions& options,
+                const Progress& progress) {
+    check_options(options);
+    check_method(options);
+    const TableGround ground(original.table);
+    const Original side{.exact = ground,
+                        .table = original.table,
+                        .samples = original.samples,
+                        .size = std::sqrt(original.area),
+                        .length = original.length,
+                        .noise = original.noise,
+                        .oriented = original.oriented};
+    return global_only(PointMatch(side, suspect, options).run(progress), options);
+}
+
+}  // namespace umbilic

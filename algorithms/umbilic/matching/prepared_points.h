@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <umbilic/core/progress.h>
+#include <umbilic/differential/area_samples.h>
+#include <umbilic/matching/principal_frame_table.h>
+#include <umbilic/model/point_cloud.h>
+#include <umbilic/points/point_jets.h>
+
+namespace umbilic {
+
+struct PointFeatureOptions {
+    int samples = 3000;  ///< points that stand for the cloud; all points serve as their neighbours
+    JetOptions jets;
+    std::uint64_t seed = 0;  ///< chooses the samples where there are more points
+};
+
+/// A cloud with everything computed once for it: jets at its samples and their table. Keeps a reference to the cloud.
+struct PreparedPoints {
+    const PointCloud& cloud;
+    std::vector<AreaSample> samples;  ///< `at` without meaning; weights are areas; only the point holds where the
+                                      ///< jet is not valid (curvature.regular false)
+    std::vector<PointJet> jets;       ///< one a sample
+    PrincipalFrameTable table;        ///< of the valid jets; only interior and well-determined ones propose poses
+    double area = 0.0;                ///< mm^2, estimated (see point_weights())
+    double length = 0.0;              ///< twice the root mean square distance from the centroid, mm
+    double noise = 0.0;               ///< standard deviation along the normal, mm (see estimated_noise())
+    bool oriented = false;            ///< normals point to the outward side: the cloud had normals or triangles
+};
+
+/// Throws InvalidInput, naming the file, if there are fewer than fewest_points points or no jet is valid; Cancelled.
+PreparedPoints prepare(const PointCloud& cloud, const PointFeatureOptions& options = {}, const Progress& progress = {});
+
+/// Points of which nothing can be said are refused.
+inline constexpr int fewest_points = 40;
+
+}  // namespace umbilic

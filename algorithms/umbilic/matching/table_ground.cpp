@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <umbilic/matching/table_ground.h>
+
+#include <cmath>
+
+namespace umbilic {
+
+std::optional<GroundFoot> TableGround::foot(const Vector3& point, double limit) const {
+    const Curvature& frame = table_.nearest(point).frame;
+    const Vector3 offset = point - frame.point;
+    const double x = offset.dot(frame.direction_max), y = offset.dot(frame.direction_min);
+    if (std::hypot(x, y) > PrincipalFrameTable::border_steps * table_.step()) {
+        const double distance = offset.norm();
+        if (distance > limit) return {};
+        return GroundFoot{frame.point, frame.normal, distance, true};
+    }
+    // kappa = -II / I: the surface falls away from its normal where kappa is positive.
+    const double height = -0.5 * (frame.kappa_max * x * x + frame.kappa_min * y * y);
+    const Vector3 rise =
+        frame.normal + frame.kappa_max * x * frame.direction_max + frame.kappa_min * y * frame.direction_min;
+    const double steepness = rise.norm();
+    const double distance = (offset.dot(frame.normal) - height) / steepness;
+    if (std::abs(distance) > limit) return {};
+    const Vector3 normal = rise / steepness;
+    return GroundFoot{point - distance * normal, normal, std::abs(distance), false};
+}
+
+}  // namespace umbilic
