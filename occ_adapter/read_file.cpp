@@ -2,6 +2,7 @@
 #include "read_file.h"
 
 #include <filesystem>
+#include <fstream>
 #include <sstream>
 #include <system_error>
 
@@ -73,6 +74,25 @@ void write_transformed_step(const std::string& path, const SimilarityTransform& 
         for (int column = 0; column < 4; ++column)
             arguments.push_back(fmt::format("{:a}", column < 3 ? linear(row, column) : transform.translation(row)));
     run_reader(path, arguments, {options.seconds, options.memory}, {});
+    std::error_code error;
+    fs::rename(beside.path(), target, error);
+    if (error) throw InvalidInput(step_path + ": cannot be written (" + error.message() + "); choose another place");
+}
+
+void write_surfaces_step(const Model& model, const std::string& step_path, const ReadOptions& options) {
+    check(options);
+    const fs::path target(step_path);
+    const auto part = [&](const char* ending) {
+        return target.parent_path() / fmt::format(".{}.{}.{}", target.filename().string(), ::getpid(), ending);
+    };
+    const Unfinished source(part("model")), beside(part("part"));
+    {
+        std::ofstream out(source.path(), std::ios::binary);
+        write_model(model, out);
+        if (!out.flush()) throw InvalidInput(step_path + ": cannot be written; choose another place");
+    }
+    run_reader(step_path, {"write", source.path().string(), beside.path().string()}, {options.seconds, options.memory},
+               {});
     std::error_code error;
     fs::rename(beside.path(), target, error);
     if (error) throw InvalidInput(step_path + ": cannot be written (" + error.message() + "); choose another place");

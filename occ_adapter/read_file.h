@@ -35,6 +35,10 @@ ReadResult read_file(const std::string& path, const ReadOptions& options = {}, c
 void write_transformed_step(const std::string& path, const SimilarityTransform& transform, const std::string& step_path,
                             const ReadOptions& options = {});
 
+/// Writes the whole surfaces of a model's faces (trimming loops are not kept) as a STEP file in mm, through a child
+/// process; the file appears whole or not at all. Throws InvalidInput or NumericFailure, naming the file.
+void write_surfaces_step(const Model& model, const std::string& step_path, const ReadOptions& options = {});
+
 /// Version of OpenCASCADE this build is linked with, e.g. "7.6.3".
 std::string opencascade_version();
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The program that touches CAD files, so that a file can end no other one: see reader_process.h for its frames.
 // umbilic_reader MEMORY read PATH DEFLECTION | MEMORY transform PATH OUT 12 numbers (rows of a 3 x 4 matrix)
+//                | MEMORY write PATH OUT (a model in Umbilic's own form to STEP)
 #include <bit>
 #include <charconv>
 #include <csignal>
 #include <cstdlib>
+#include <fstream>
 #include <iterator>
 #include <new>
 #include <sstream>
@@ -32,6 +34,7 @@
 #include <umbilic/model/serialization.h>
 
 #include "file_format.h"
+#include "model_to_shape.h"
 #include "reader_process.h"
 #include "shape_file.h"
 #include "shape_to_model.h"
@@ -154,17 +157,26 @@ std::string read(const std::string& path, double deflection) {
     return out.str();
 }
 
+void write_step(const TopoDS_Shape& shape, const std::string& step_path) {
+    STEPControl_Writer writer;
+    Interface_Static::SetCVal("write.step.unit", "MM");
+    if (writer.Transfer(shape, STEPControl_AsIs) != IFSelect_RetDone)
+        throw NumericFailure("OpenCASCADE cannot translate the shape to STEP");
+    if (writer.Write(step_path.c_str()) != IFSelect_RetDone)
+        throw InvalidInput("the shape cannot be written to " + step_path + "; choose another place");
+}
+
 void transform(const std::string& path, const std::string& step_path, const std::vector<double>& m) {
     const ShapeFile file = read_checked(path, describe_file(path), Progress());
     gp_Trsf trsf;
     trsf.SetValues(m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8], m[9], m[10], m[11]);
     const TopoDS_Shape moved = BRepBuilderAPI_Transform(file.shape, trsf, Standard_True).Shape();
-    STEPControl_Writer writer;
-    Interface_Static::SetCVal("write.step.unit", "MM");
-    if (writer.Transfer(moved, STEPControl_AsIs) != IFSelect_RetDone)
-        throw NumericFailure("OpenCASCADE cannot translate the moved shape to STEP");
-    if (writer.Write(step_path.c_str()) != IFSelect_RetDone)
-        throw InvalidInput("the moved shape cannot be written to " + step_path + "; choose another place");
+    write_step(moved, step_path);
+}
+
+void write(const std::string& path, const std::string& step_path) {
+    std::ifstream in(path, std::ios::binary);
+    write_step(shape_of(read_model(in)), step_path);
 }
 
 std::string run(const std::vector<std::string>& words) {
@@ -173,6 +185,10 @@ std::string run(const std::vector<std::string>& words) {
         std::vector<double> matrix;
         for (std::size_t i = 4; i < words.size(); ++i) matrix.push_back(number(words[i]));
         transform(words[2], words[3], matrix);
+        return "";
+    }
+    if (words.size() == 4 && words[1] == "write") {
+        write(words[2], words[3]);
         return "";
     }
     throw InvalidInput("umbilic_reader is started by Umbilic only");
