@@ -160,11 +160,11 @@ TEST(TensorPolynomial, SumStaysWithinItsBound) {
 TEST(TensorPolynomial, DivisionUndoesAFactorThatVanishesOnAnEdge) {
     std::mt19937 engine(6);
     const TensorPolynomial a = random_polynomial(3, 4, engine);
-    for (const Edge edge : {Edge::u_low, Edge::u_high, Edge::v_low, Edge::v_high}) {
+    for (const PatchEdge edge : {PatchEdge::u_low, PatchEdge::u_high, PatchEdge::v_low, PatchEdge::v_high}) {
         TensorPolynomial factor, product;
-        const bool across_u = edge == Edge::u_low || edge == Edge::u_high;
+        const bool across_u = edge == PatchEdge::u_low || edge == PatchEdge::u_high;
         factor.set_zero(across_u ? 1 : 0, across_u ? 0 : 1);
-        factor.scaled[edge == Edge::u_low || edge == Edge::v_low ? 1 : 0] = 1.0;
+        factor.scaled[edge == PatchEdge::u_low || edge == PatchEdge::v_low ? 1 : 0] = 1.0;
         factor.measure();
         const std::array<ProductTerm, 1> terms = {{{&a, &factor, 1.0}}};
         sum_of_products(terms, product);

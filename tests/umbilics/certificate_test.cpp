@@ -9,6 +9,7 @@
 #include <support/surfaces.h>
 #include <umbilic/core/errors.h>
 #include <umbilic/differential/fundamental_forms.h>
+#include <umbilic/umbilics/certificate.h>
 #include <umbilic/umbilics/find.h>
 
 namespace umbilic {
@@ -66,22 +67,65 @@ TEST(Certificate, UnequalKnotSpansKeepItWhole) {
 }
 
 TEST(Certificate, SaysWhyItCannotBeEvaluated) {
-    const FaceUmbilics octant = find_umbilics(support::ellipsoid_octant(3, 2, 1));
-    EXPECT_FALSE(octant.certificate.complete);
-    EXPECT_FALSE(octant.certificate.why.empty());
-    // Flat star on the edge x = -1 of the patch: the umbilic of the graph is moved there.
-    const NurbsSurface edge = support::graph_patch(3, 3, [](double x, double y) {
-        const double s = x + 1;
-        return s * s * s - 3 * s * y * y;
-    });
-    const FaceUmbilics found = find_umbilics(edge);
-    ASSERT_EQ(found.umbilics.size(), 1u);
-    EXPECT_NEAR(found.umbilics[0].at.u, 0.0, 1e-12);
-    EXPECT_FALSE(found.certificate.complete);
-    EXPECT_NE(found.certificate.why.find("border"), std::string::npos);
+    const FaceUmbilics plane = find_umbilics(support::smooth_bicubic(6, 1, 0.0));
+    EXPECT_FALSE(plane.certificate.complete);
+    EXPECT_NE(plane.certificate.why.find("region"), std::string::npos);
     UmbilicOptions options;
     options.certificate = false;
-    EXPECT_FALSE(find_umbilics(support::table_3_1_patch(), options).certificate.complete);
+    const FaceUmbilics unasked = find_umbilics(support::table_3_1_patch(), options);
+    EXPECT_FALSE(unasked.certificate.complete);
+    EXPECT_FALSE(unasked.certificate.why.empty());
+}
+
+/// Graph of a star at (x, y) of the square [-1, 1]^2 and nothing else.
+NurbsSurface star_at(double x0, double y0) {
+    return support::graph_patch(3, 3, [=](double x, double y) {
+        const double s = x - x0, t = y - y0;
+        return (s * s + t * t) / 2 + (s * s * s - 3 * s * t * t) / 12;
+    });
+}
+
+TEST(Certificate, BorderGoesAroundUmbilicsOnIt) {
+    for (const auto& [x, y] : {std::pair{-1.0, 0.0},
+                               {1.0, 0.25},
+                               {0.3, -1.0},
+                               {-0.3, 1.0},
+                               {-1.0, -1.0},
+                               {1.0, -1.0},
+                               {1.0, 1.0},
+                               {-1.0, 1.0},
+                               {-1.0, 1.0 - 1e-6},
+                               {1.0 - 1e-11, 0.0}}) {
+        const FaceUmbilics found = find_umbilics(star_at(x, y));
+        ASSERT_EQ(found.umbilics.size(), 1u);
+        EXPECT_NEAR(found.umbilics[0].at.u, (x + 1) / 2, 1e-12);
+        ASSERT_TRUE(found.certificate.complete) << found.certificate.why;
+        EXPECT_TRUE(*found.certificate.complete);
+        EXPECT_EQ(found.certificate.boundary_winding, -0.5);
+    }
+}
+
+TEST(Certificate, CatchesAMissingUmbilic) {
+    for (unsigned seed = 0; seed < 3; ++seed) {
+        const NurbsSurface surface = support::rough_bicubic(8, seed);
+        const FaceUmbilics found = find_umbilics(surface);
+        ASSERT_TRUE(found.certificate.complete);
+        ASSERT_TRUE(*found.certificate.complete);
+        const BorderWinding winding{found.certificate.boundary_winding, found.certificate.why};
+        ASSERT_TRUE(*certify(winding, found).complete);
+        for (std::size_t k = 0; k < found.umbilics.size(); ++k) {
+            FaceUmbilics lacking = found;
+            lacking.umbilics.erase(lacking.umbilics.begin() + k);
+            const Certificate certificate = certify(winding, lacking);
+            ASSERT_TRUE(certificate.complete);
+            EXPECT_FALSE(*certificate.complete);
+            EXPECT_NE(certificate.why.find("missing"), std::string::npos);
+        }
+        // One listed twice is caught as well.
+        FaceUmbilics twice = found;
+        twice.umbilics.push_back(found.umbilics.front());
+        EXPECT_FALSE(*certify(winding, twice).complete);
+    }
 }
 
 TEST(Search, ResultDoesNotDependOnTheNumberOfThreads) {

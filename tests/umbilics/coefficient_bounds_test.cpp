@@ -355,10 +355,10 @@ void measure(const NurbsSurface& surface, unsigned seed, Shares& shares) {
         }
     }
     // The restriction to an edge.
-    const Edge edge = std::array{Edge::u_low, Edge::u_high, Edge::v_low, Edge::v_high}[random() % 4];
+    const PatchEdge edge = std::array{PatchEdge::u_low, PatchEdge::u_high, PatchEdge::v_low, PatchEdge::v_high}[random() % 4];
     const EdgeEquations pair = equations.edge_equations(edge);
-    const bool across_u = edge == Edge::u_low || edge == Edge::u_high;
-    const bool high = edge == Edge::u_high || edge == Edge::v_high;
+    const bool across_u = edge == PatchEdge::u_low || edge == PatchEdge::u_high;
+    const bool high = edge == PatchEdge::u_high || edge == PatchEdge::v_high;
     for (int f = 0; f < 2; ++f) {
         const std::vector<double>& c = f == 0 ? pair.a : pair.b;
         const Power& w = *wanted[f];

@@ -65,15 +65,6 @@ TEST(SpecialSurfaces, SphereOctantIsASphericalRegion) {
                       area * 25.4 * 25.4, 1e-6);
 }
 
-TEST(SpecialSurfaces, PoleOfASpheroidIsOnePlace) {
-    const FaceUmbilics found = find_umbilics(support::ellipsoid_octant(2, 2, 1));
-    EXPECT_TRUE(found.umbilics.empty());
-    EXPECT_TRUE(found.lines.empty());
-    ASSERT_EQ(found.undecided.size(), 1u);
-    for (const ParameterBox& box : found.undecided[0].boxes) EXPECT_EQ(box.v.high, 1.0);
-    EXPECT_LE(found.statistics.boxes, 2000);
-}
-
 TEST(SpecialSurfaces, PlateWithAPlanarPartDoesNotExplode) {
     // Coplanar control points over a block of 8 x 8 make 5 x 5 planar spans.
     const NurbsSurface rough = support::rough_bicubic(20, 4);

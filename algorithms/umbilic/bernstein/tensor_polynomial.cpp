@@ -34,14 +34,14 @@ void add_product(const TensorPolynomial& short_rows, const TensorPolynomial& lon
 }
 
 /// The univariate restriction to an edge: Bernstein coefficients of the other variable, increasing.
-std::vector<double> edge_coefficients(const TensorPolynomial& polynomial, Edge edge) {
-    const bool across_u = edge == Edge::u_low || edge == Edge::u_high;
+std::vector<double> edge_coefficients(const TensorPolynomial& polynomial, PatchEdge edge) {
+    const bool across_u = edge == PatchEdge::u_low || edge == PatchEdge::u_high;
     const int degree = across_u ? polynomial.v_degree : polynomial.u_degree;
     const double* inverse = inverse_binomials(degree);
     std::vector<double> result(degree + 1);
     for (int k = 0; k <= degree; ++k) {
-        const int i = across_u ? (edge == Edge::u_low ? 0 : polynomial.u_degree) : k;
-        const int j = across_u ? k : (edge == Edge::v_low ? 0 : polynomial.v_degree);
+        const int i = across_u ? (edge == PatchEdge::u_low ? 0 : polynomial.u_degree) : k;
+        const int j = across_u ? k : (edge == PatchEdge::v_low ? 0 : polynomial.v_degree);
         result[k] = polynomial.scaled[i * polynomial.row_length() + j] * inverse[k];
     }
     return result;
@@ -200,16 +200,16 @@ void derivative_v(const TensorPolynomial& polynomial, TensorPolynomial& result) 
     result.measure();
 }
 
-void divide_by_edge(TensorPolynomial& polynomial, Edge edge) {
-    const bool across_u = edge == Edge::u_low || edge == Edge::u_high;
+void divide_by_edge(TensorPolynomial& polynomial, PatchEdge edge) {
+    const bool across_u = edge == PatchEdge::u_low || edge == PatchEdge::u_high;
     const int degree = across_u ? polynomial.u_degree : polynomial.v_degree;
     assert(degree > 0);
     const int length = polynomial.row_length();
     std::vector<double>& c = polynomial.scaled;
-    if (edge == Edge::u_low) c.erase(c.begin(), c.begin() + length);
-    if (edge == Edge::u_high) c.resize(c.size() - length);
+    if (edge == PatchEdge::u_low) c.erase(c.begin(), c.begin() + length);
+    if (edge == PatchEdge::u_high) c.resize(c.size() - length);
     if (!across_u) {
-        const int first = edge == Edge::v_low ? 1 : 0;
+        const int first = edge == PatchEdge::v_low ? 1 : 0;
         for (int i = 0; i <= polynomial.u_degree; ++i)
             for (int j = 0; j < length - 1; ++j) c[i * (length - 1) + j] = c[i * length + first + j];
         c.resize(static_cast<std::size_t>(polynomial.u_degree + 1) * (length - 1));
@@ -221,7 +221,7 @@ void divide_by_edge(TensorPolynomial& polynomial, Edge edge) {
     polynomial.measure();
 }
 
-double edge_magnitude(const TensorPolynomial& polynomial, Edge edge) {
+double edge_magnitude(const TensorPolynomial& polynomial, PatchEdge edge) {
     double result = 0.0;
     for (const double value : edge_coefficients(polynomial, edge)) result = std::max(result, std::abs(value));
     return result;

@@ -60,13 +60,13 @@ void derivative_u(const TensorPolynomial& polynomial, TensorPolynomial& result);
 void derivative_v(const TensorPolynomial& polynomial, TensorPolynomial& result);
 
 /// Side of the unit square.
-enum class Edge { u_low, u_high, v_low, v_high };
+enum class PatchEdge { u_low, u_high, v_low, v_high };
 
 /// Divides by the linear factor that vanishes on `edge` (u, 1 - u, v or 1 - v). The row or column of coefficients on
 /// that edge must be zero within its bound and is dropped; the bounds grow by the degree.
-void divide_by_edge(TensorPolynomial& polynomial, Edge edge);
+void divide_by_edge(TensorPolynomial& polynomial, PatchEdge edge);
 
 /// Largest |b_ij| on an edge.
-double edge_magnitude(const TensorPolynomial& polynomial, Edge edge);
+double edge_magnitude(const TensorPolynomial& polynomial, PatchEdge edge);
 
 }  // namespace umbilic

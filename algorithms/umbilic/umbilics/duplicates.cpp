@@ -50,11 +50,20 @@ bool same_place(const NurbsSurface& surface, const InputRounding& input, const C
 
 }  // namespace
 
-void merge_duplicates(const NurbsSurface& surface, const BezierPatches& patches, const InputRounding& input,
-                      std::vector<Candidate> candidates, std::vector<Umbilic>& umbilics, std::vector<OpenPart>& open) {
+std::vector<SightedUmbilic> merge_duplicates(const NurbsSurface& surface, const BezierPatches& patches,
+                                             const InputRounding& input, std::vector<Candidate> candidates,
+                                             std::vector<OpenPart>& open) {
+    const auto sighting = [&](const Candidate& candidate) {
+        const ParameterBox& domain = patches.patches[candidate.patch].domain;
+        return Sighting{candidate.patch, Vector2(domain.u.low + candidate.zero.at.x() * domain.u.length(),
+                                                 domain.v.low + candidate.zero.at.y() * domain.v.length())};
+    };
+    std::vector<std::vector<Sighting>> sightings(candidates.size());
     std::vector<std::size_t> edge;
-    for (std::size_t k = 0; k < candidates.size(); ++k)
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        sightings[k].push_back(sighting(candidates[k]));
         if (on_edge(candidates[k].zero)) edge.push_back(k);
+    }
     std::vector<bool> dropped(candidates.size(), false);
     for (const std::size_t k : edge) {
         if (dropped[k]) continue;
@@ -64,6 +73,7 @@ void merge_duplicates(const NurbsSurface& surface, const BezierPatches& patches,
             if (other == k || dropped[other] || a.patch == b.patch) continue;
             if (!same_place(surface, input, a, b, patches.patches[a.patch], patches.patches[b.patch])) continue;
             dropped[other] = true;
+            sightings[k].insert(sightings[k].end(), sightings[other].begin(), sightings[other].end());
             contradicted = contradicted || a.zero.sign != b.zero.sign;
         }
         if (contradicted) {
@@ -71,8 +81,10 @@ void merge_duplicates(const NurbsSurface& surface, const BezierPatches& patches,
             open.push_back({candidates[k].umbilic.box, false});
         }
     }
+    std::vector<SightedUmbilic> result;
     for (std::size_t k = 0; k < candidates.size(); ++k)
-        if (!dropped[k]) umbilics.push_back(std::move(candidates[k].umbilic));
+        if (!dropped[k]) result.push_back({std::move(candidates[k].umbilic), std::move(sightings[k])});
+    return result;
 }
 
 }  // namespace umbilic

@@ -17,10 +17,23 @@ struct Candidate {
     std::size_t patch = 0;  ///< index into BezierPatches::patches
 };
 
+/// Where a patch sees an umbilic.
+struct Sighting {
+    std::size_t patch = 0;         ///< index into BezierPatches::patches
+    Vector2 at = Vector2::Zero();  ///< in the surface's parameters, not moved onto the patch
+};
+
+/// An umbilic and everywhere it was seen: more than once on an edge of patches and on a seam.
+struct SightedUmbilic {
+    Umbilic umbilic;
+    std::vector<Sighting> sightings;
+};
+
 /// Umbilics on edges of patches are found by every patch that meets there, and on a seam by both of its sides: keeps
 /// one of each. Where two patches disagree about the index (the third derivatives jump), neither side's proof holds for
 /// the surface; the place goes to `open`.
-void merge_duplicates(const NurbsSurface& surface, const BezierPatches& patches, const InputRounding& input,
-                      std::vector<Candidate> candidates, std::vector<Umbilic>& umbilics, std::vector<OpenPart>& open);
+std::vector<SightedUmbilic> merge_duplicates(const NurbsSurface& surface, const BezierPatches& patches,
+                                             const InputRounding& input, std::vector<Candidate> candidates,
+                                             std::vector<OpenPart>& open);
 
 }  // namespace umbilic

@@ -47,13 +47,13 @@ void raise_to_common_degree(TensorPolynomial& a, TensorPolynomial& b) {
 }
 
 /// Univariate polynomial on an edge, as a tensor polynomial of degree 0 across it.
-TensorPolynomial restriction(const TensorPolynomial& polynomial, Edge edge) {
-    const bool across_u = edge == Edge::u_low || edge == Edge::u_high;
+TensorPolynomial restriction(const TensorPolynomial& polynomial, PatchEdge edge) {
+    const bool across_u = edge == PatchEdge::u_low || edge == PatchEdge::u_high;
     TensorPolynomial result;
     result.set_zero(across_u ? 0 : polynomial.u_degree, across_u ? polynomial.v_degree : 0);
     for (int k = 0; k < static_cast<int>(result.scaled.size()); ++k) {
-        const int i = across_u ? (edge == Edge::u_low ? 0 : polynomial.u_degree) : k;
-        const int j = across_u ? k : (edge == Edge::v_low ? 0 : polynomial.v_degree);
+        const int i = across_u ? (edge == PatchEdge::u_low ? 0 : polynomial.u_degree) : k;
+        const int j = across_u ? k : (edge == PatchEdge::v_low ? 0 : polynomial.v_degree);
         result.scaled[k] = polynomial.scaled[i * polynomial.row_length() + j];
     }
     result.bound = polynomial.bound;
@@ -103,11 +103,11 @@ void UmbilicEquations::load(const BezierPatch& patch, const InputRounding& input
 }
 
 void UmbilicEquations::find_collapsed_edges() {
-    for (const Edge edge : {Edge::u_low, Edge::u_high, Edge::v_low, Edge::v_high}) {
-        const bool across_u = edge == Edge::u_low || edge == Edge::u_high;
+    for (const PatchEdge edge : {PatchEdge::u_low, PatchEdge::u_high, PatchEdge::v_low, PatchEdge::v_high}) {
+        const bool across_u = edge == PatchEdge::u_low || edge == PatchEdge::u_high;
         const auto at = [&](int k) {
-            if (across_u) return (edge == Edge::u_low ? 0 : p_) * (q_ + 1) + k;
-            return k * (q_ + 1) + (edge == Edge::v_low ? 0 : q_);
+            if (across_u) return (edge == PatchEdge::u_low ? 0 : p_) * (q_ + 1) + k;
+            return k * (q_ + 1) + (edge == PatchEdge::v_low ? 0 : q_);
         };
         bool same = true;
         for (int k = 1; k <= (across_u ? q_ : p_); ++k)
@@ -281,7 +281,7 @@ void UmbilicEquations::form_umbilic() {
     raise_to_common_degree(a_, b_);
 }
 
-EdgeEquations UmbilicEquations::edge_equations(Edge edge) const {
+EdgeEquations UmbilicEquations::edge_equations(PatchEdge edge) const {
     const TensorPolynomial e = restriction(e_, edge), f = restriction(f_, edge), g = restriction(g_, edge);
     const TensorPolynomial l = restriction(l_, edge), m = restriction(m_, edge), n = restriction(n_, edge);
     TensorPolynomial a, b;
@@ -297,15 +297,14 @@ EdgeEquations UmbilicEquations::edge_equations(Edge edge) const {
 }
 
 void UmbilicEquations::divide_by_collapsed_edges() {
-    for (const Edge edge : {Edge::u_low, Edge::u_high, Edge::v_low, Edge::v_high}) {
+    for (const PatchEdge edge : {PatchEdge::u_low, PatchEdge::u_high, PatchEdge::v_low, PatchEdge::v_high}) {
         if (!collapsed(edge)) continue;
+        const bool across_u = edge == PatchEdge::u_low || edge == PatchEdge::u_high;
         for (TensorPolynomial* polynomial : {&a_, &b_})
-            for (int order = 0; order < maximum_pole_order; ++order) {
-                const bool across_u = edge == Edge::u_low || edge == Edge::u_high;
-                if ((across_u ? polynomial->u_degree : polynomial->v_degree) == 0) break;
-                if (edge_magnitude(*polynomial, edge) > polynomial->bound.input) break;
+            while ((across_u ? polynomial->u_degree : polynomial->v_degree) > 0 &&
+                   polynomial->magnitude > polynomial->bound.input &&
+                   edge_magnitude(*polynomial, edge) <= polynomial->bound.input)
                 divide_by_edge(*polynomial, edge);
-            }
     }
     raise_to_common_degree(a_, b_);
 }

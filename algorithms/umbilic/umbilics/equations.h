@@ -51,16 +51,15 @@ public:
     std::array<Interval, 2> enclose(const Vector2& at) const;
 
     /// Restriction to an edge. Needs form_fundamental only.
-    EdgeEquations edge_equations(Edge edge) const;
+    EdgeEquations edge_equations(PatchEdge edge) const;
 
     /// Edges whose control points all coincide within the input's rounding (poles).
-    bool collapsed(Edge edge) const { return collapsed_[static_cast<int>(edge)]; }
-    /// Divides A and B by the factors that vanish on collapsed edges, up to `maximum_pole_order` of each as far as
-    /// they vanish within the input's rounding, and raises both to one bidegree again. Needs form_umbilic.
+    bool collapsed(PatchEdge edge) const { return collapsed_[static_cast<int>(edge)]; }
+    /// Divides A and B by the powers of the distance from collapsed edges that they contain, as far as they vanish
+    /// there within the input's rounding, and raises both to one bidegree again. At a simple pole A contains the fourth
+    /// power and B the third; both one more if the pole is umbilic, and still more if its cubic form vanishes.
+    /// Needs form_umbilic.
     void divide_by_collapsed_edges();
-
-    /// A contains at most the fourth power of the distance from a collapsed edge, B the third.
-    static constexpr int maximum_pole_order = 4;
 
 private:
     using Vector3Polynomial = std::array<TensorPolynomial, 3>;

@@ -16,7 +16,9 @@
 #include <umbilic/umbilics/characterise.h>
 #include <umbilic/umbilics/clusters.h>
 #include <umbilic/umbilics/duplicates.h>
+#include <umbilic/umbilics/certificate.h>
 #include <umbilic/umbilics/patch_search.h>
+#include <umbilic/umbilics/poles.h>
 #include <umbilic/umbilics/winding.h>
 
 namespace umbilic {
@@ -26,30 +28,39 @@ namespace {
 /// Boxes are split down to this share of their patch however small the patch is: the resolution is relative to the
 /// whole domain, and a narrow patch needs some boxes of its own.
 constexpr double coarsest_patch_size = 1.0 / 16;
+/// Points beside a pole that are looked at to tell whether it belongs to a face, and their distance from it relative to
+/// the domain: beyond the accuracy of the loops.
+constexpr int pole_samples = 16;
+constexpr double pole_distance = 10 * TrimmingRegion::polyline_deviation;
 
-/// Breaks across which the surface is less than twice continuously differentiable, and the two ends: borders of blocks
-/// on which the principal directions are continuous.
-std::vector<bool> block_borders(const KnotVector& knots) {
+/// Breaks across which the surface is less than twice continuously differentiable, and the two ends of what is
+/// searched: borders of blocks on which the principal directions are continuous.
+std::vector<bool> block_borders(const KnotVector& knots, int first, int last) {
     std::vector<bool> result(knots.breaks().size());
     for (std::size_t k = 0; k < result.size(); ++k) result[k] = knots.continuity(static_cast<int>(k)) < 2;
-    result.front() = result.back() = true;
+    result[first] = result[last] = true;
     return result;
 }
 
+/// Entries of patches outside of `range` stay empty.
 std::vector<PatchUmbilics> search_patches(const NurbsSurface& surface, const BezierPatches& patches,
-                                          const InputRounding& input, const UmbilicOptions& options,
-                                          const Progress& progress) {
+                                          const InputRounding& input, const PatchRange& range,
+                                          const UmbilicOptions& options, const Progress& progress) {
     const ParameterBox domain = surface.domain();
-    const std::vector<bool> u_border = block_borders(surface.u_knots()), v_border = block_borders(surface.v_knots());
+    const std::vector<bool> u_border = block_borders(surface.u_knots(), range.u_first, range.u_last);
+    const std::vector<bool> v_border = block_borders(surface.v_knots(), range.v_first, range.v_last);
     std::vector<PatchUmbilics> result(patches.patches.size());
+    const std::size_t columns = range.v_last - range.v_first;
+    const std::size_t count = (range.u_last - range.u_first) * columns;
     tbb::enumerable_thread_specific<PatchSearch> searches;
     std::atomic<std::size_t> done{0};
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, result.size()), [&](const auto& range) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const auto& part) {
         PatchSearch& search = searches.local();
-        for (std::size_t k = range.begin(); k != range.end(); ++k) {
+        for (std::size_t at = part.begin(); at != part.end(); ++at) {
             progress.check();
+            const std::size_t i = range.u_first + at / columns, j = range.v_first + at % columns;
+            const std::size_t k = i * patches.v_count + j;
             const BezierPatch& patch = patches.patches[k];
-            const std::size_t i = k / patches.v_count, j = k % patches.v_count;
             PatchTask task;
             task.limits.u_size =
                 std::min(coarsest_patch_size, options.resolution * domain.u.length() / patch.domain.u.length());
@@ -59,46 +70,10 @@ std::vector<PatchUmbilics> search_patches(const NurbsSurface& surface, const Bez
             if (options.certificate) task.edges = {u_border[i], u_border[i + 1], v_border[j], v_border[j + 1]};
             result[k] = search.search(patch, input, task, progress);
         }
-        done += range.size();
-        progress.report(static_cast<double>(done) / static_cast<double>(result.size()), "umbilics");
+        done += part.size();
+        progress.report(static_cast<double>(done) / static_cast<double>(count), "umbilics");
     });
     return result;
-}
-
-Certificate make_certificate(const BezierPatches& patches, const std::vector<PatchUmbilics>& found,
-                             const FaceUmbilics& result, bool wanted, bool collapsed) {
-    Certificate certificate;
-    for (const Umbilic& umbilic : result.umbilics) certificate.index_sum += umbilic.index;
-    double angle = 0.0;
-    bool evaluated = true;
-    for (std::size_t k = 0; k < patches.patches.size(); ++k)
-        for (const Edge edge : {Edge::u_low, Edge::u_high, Edge::v_low, Edge::v_high}) {
-            const EdgeTurning& turning = found[k].turning[static_cast<int>(edge)];
-            if (!turning.wanted) continue;
-            if (!turning.angle)
-                evaluated = false;
-            else
-                angle += edge == Edge::v_low || edge == Edge::u_high ? *turning.angle : -*turning.angle;
-        }
-    const std::optional<double> turns = evaluated ? whole_turns(angle) : std::nullopt;
-    if (!wanted)
-        certificate.why = "not asked for";
-    else if (!result.regions.empty())
-        certificate.why = "there are umbilic regions";
-    else if (!result.lines.empty())
-        certificate.why = "there are lines of umbilics";
-    else if (collapsed)
-        certificate.why = "an edge of the surface is collapsed to a point";
-    else if (!turns)
-        certificate.why = "an umbilic lies on, or too near to, the border of the surface or of one of its smooth parts";
-    else if (!result.undecided.empty())
-        certificate.why = "some boxes are undecided";
-    else {
-        certificate.boundary_winding = 0.5 * *turns;
-        certificate.complete = certificate.boundary_winding == certificate.index_sum;
-        if (!*certificate.complete) certificate.why = "the indices found do not sum to the winding along the border";
-    }
-    return certificate;
 }
 
 /// Answers for kinds of surface whose umbilics are known; false for all others.
@@ -109,8 +84,8 @@ bool answer_elementary(const Face& face, FaceUmbilics& result) {
             UmbilicRegion region = make_region(face.surface, {face.surface.domain()});
             region.kind = face.kind == SurfaceKind::plane ? UmbilicRegionKind::planar : UmbilicRegionKind::spherical;
             result.regions.push_back(std::move(region));
-            result.certificate.why = "there are umbilic regions";
-            return true;
+            result.certificate.why = "not evaluated: there are umbilic regions";
+            break;
         }
         case SurfaceKind::cylinder:
         case SurfaceKind::cone:
@@ -118,30 +93,36 @@ bool answer_elementary(const Face& face, FaceUmbilics& result) {
             // One principal curvature is everywhere the greater one (a torus of this kind has major > minor radius),
             // and the directions are those of the parameters: no umbilics, no turning.
             result.certificate.complete = true;
-            return true;
+            result.certificate.why = std::string("a ") + name(face.kind) + " has no umbilics";
+            break;
         default:
             return false;
     }
+    result.searched = face.surface.domain();
+    return true;
 }
 
-}  // namespace
-
-FaceUmbilics find_umbilics(const NurbsSurface& surface, const UmbilicOptions& options, const Progress& progress) {
+void check(const UmbilicOptions& options) {
     if (!(options.resolution > 0.0 && options.resolution < 1.0))
         throw InvalidInput("umbilic search: the resolution must lie between 0 and 1");
     if (options.boxes_per_patch < 1) throw InvalidInput("umbilic search: boxes_per_patch must be at least 1");
     if (!(options.generic_margin >= 0.0)) throw InvalidInput("umbilic search: generic_margin must not be negative");
     if (!(options.accuracy >= 0.0)) throw InvalidInput("umbilic search: the accuracy must not be negative");
+}
 
+FaceUmbilics search_range(const NurbsSurface& surface, const PatchRange& range, const UmbilicOptions& options,
+                          const Progress& progress) {
     const BezierPatches patches = bezier_patches(surface);
     const InputRounding input = input_rounding(surface);
-    const std::vector<PatchUmbilics> found = search_patches(surface, patches, input, options, progress);
+    const std::vector<PatchUmbilics> found = search_patches(surface, patches, input, range, options, progress);
 
     FaceUmbilics result;
+    const std::vector<double>&u_breaks = surface.u_knots().breaks(), &v_breaks = surface.v_knots().breaks();
+    result.searched = {{u_breaks[range.u_first], u_breaks[range.u_last]},
+                       {v_breaks[range.v_first], v_breaks[range.v_last]}};
+    result.statistics.patches = (range.u_last - range.u_first) * (range.v_last - range.v_first);
     std::vector<Candidate> candidates;
     std::vector<OpenPart> open;
-    bool collapsed = false;
-    result.statistics.patches = static_cast<int>(found.size());
     for (std::size_t k = 0; k < found.size(); ++k) {
         const BezierPatch& patch = patches.patches[k];
         const ParameterBox& domain = patch.domain;
@@ -149,7 +130,6 @@ FaceUmbilics find_umbilics(const NurbsSurface& surface, const UmbilicOptions& op
         result.statistics.formed += found[k].formed;
         result.statistics.boxes += zeros.boxes;
         result.statistics.budget_exhausted = result.statistics.budget_exhausted || zeros.exhausted;
-        collapsed = collapsed || found[k].collapsed;
         const auto in_surface = [&](const ParameterBox& box) {
             const auto place = [](const ParameterInterval& whole, const ParameterInterval& part) {
                 return ParameterInterval{part.low == 0.0 ? whole.low : whole.low + part.low * whole.length(),
@@ -166,26 +146,105 @@ FaceUmbilics find_umbilics(const NurbsSurface& surface, const UmbilicOptions& op
         }
         for (const OpenBox& part : zeros.open) open.push_back({in_surface(part.box), part.zero});
     }
-    merge_duplicates(surface, patches, input, std::move(candidates), result.umbilics, open);
+    std::vector<SightedUmbilic> sighted = merge_duplicates(surface, patches, input, std::move(candidates), open);
+    std::vector<Pole> poles = find_poles(surface, patches, input, range, found, sighted, options.generic_margin, open);
+    for (const SightedUmbilic& umbilic : sighted) result.umbilics.push_back(umbilic.umbilic);
+    for (const Pole& pole : poles)
+        if (pole.umbilic) result.umbilics.push_back(*pole.umbilic);
     std::sort(result.umbilics.begin(), result.umbilics.end(),
               [](const Umbilic& a, const Umbilic& b) { return a.at.u != b.at.u ? a.at.u < b.at.u : a.at.v < b.at.v; });
     if (!open.empty()) sort_open_parts(surface, patches, input, open, options, result);
-    result.certificate = make_certificate(patches, found, result, options.certificate, collapsed);
+    if (options.certificate)
+        result.certificate = certify(border_winding(surface, patches, input, range, found, sighted, poles), result);
+    else
+        result.certificate.why = "not asked for";
     return result;
 }
 
+PatchRange whole_range(const NurbsSurface& surface) {
+    return {0, static_cast<int>(surface.u_knots().breaks().size()) - 1, 0,
+            static_cast<int>(surface.v_knots().breaks().size()) - 1};
+}
+
+/// The patches that `box` meets.
+PatchRange range_of(const NurbsSurface& surface, const ParameterBox& box) {
+    const auto first = [](const std::vector<double>& breaks, double low) {
+        const auto at = std::lower_bound(breaks.begin(), breaks.end(), low);
+        return std::clamp(static_cast<int>(at - breaks.begin()) - 1, 0, static_cast<int>(breaks.size()) - 2);
+    };
+    const auto last = [](const std::vector<double>& breaks, double high) {
+        const auto at = std::upper_bound(breaks.begin(), breaks.end(), high);
+        return std::clamp(static_cast<int>(at - breaks.begin()), 1, static_cast<int>(breaks.size()) - 1);
+    };
+    const std::vector<double>&u = surface.u_knots().breaks(), &v = surface.v_knots().breaks();
+    return {first(u, box.u.low), last(u, box.u.high), first(v, box.v.low), last(v, box.v.high)};
+}
+
+/// What the loops bound, widened by what is not known of them.
+ParameterBox searched_box(const TrimmingRegion& region) {
+    const ParameterBox domain = region.domain();
+    const double u = TrimmingRegion::polyline_deviation * domain.u.length();
+    const double v = TrimmingRegion::polyline_deviation * domain.v.length();
+    const ParameterBox box = region.box();
+    return {{box.u.low - u, box.u.high + u}, {box.v.low - v, box.v.high + v}};
+}
+
+/// Where an umbilic lies in its face. The sides of a whole domain are borders unless the surface closes there.
+Containment containment(const Face& face, const Umbilic& umbilic) {
+    const Containment place = face.region.classify(umbilic.at.u, umbilic.at.v, umbilic.radius);
+    if (!face.region.whole_domain() || place == Containment::inside) return place;
+    const ParameterBox domain = face.surface.domain();
+    const auto at_end = [&](const ParameterInterval& interval, double value) {
+        return std::min(value - interval.low, interval.high - value) <= umbilic.radius * interval.length();
+    };
+    const bool u_border = at_end(domain.u, umbilic.at.u) && !face.u_closed;
+    const bool v_border = at_end(domain.v, umbilic.at.v) && !face.v_closed;
+    return u_border || v_border ? Containment::boundary : Containment::inside;
+}
+
+/// A pole belongs to the face with the points around it.
+Containment pole_containment(const Face& face, const Umbilic& umbilic) {
+    const ParameterBox domain = face.surface.domain();
+    const bool across_u = umbilic.box.u.length() == 0.0;
+    int inside = 0;
+    for (int k = 0; k < pole_samples; ++k) {
+        const double share = (k + 0.5) / pole_samples;
+        const auto beside = [&](const ParameterInterval& interval, double end) {
+            return end + pole_distance * (interval.low + interval.high - 2 * end);
+        };
+        const double u = across_u ? beside(domain.u, umbilic.at.u) : umbilic.box.u.low + share * umbilic.box.u.length();
+        const double v = across_u ? umbilic.box.v.low + share * umbilic.box.v.length() : beside(domain.v, umbilic.at.v);
+        inside += face.region.classify(u, v) == Containment::inside;
+    }
+    if (inside == 0) return Containment::outside;
+    return inside == pole_samples && umbilic.pole == PoleKind::inner ? Containment::inside : Containment::boundary;
+}
+
+}  // namespace
+
+FaceUmbilics find_umbilics(const NurbsSurface& surface, const UmbilicOptions& options, const Progress& progress) {
+    check(options);
+    return search_range(surface, whole_range(surface), options, progress);
+}
+
 FaceUmbilics find_umbilics(const Face& face, const UmbilicOptions& options, const Progress& progress) {
+    check(options);
     FaceUmbilics result;
     if (!answer_elementary(face, result)) {
         UmbilicOptions on_face = options;
         on_face.accuracy += face.conversion_error;
-        result = find_umbilics(face.surface, on_face, progress);
+        const PatchRange range =
+            face.region.whole_domain() ? whole_range(face.surface) : range_of(face.surface, searched_box(face.region));
+        result = search_range(face.surface, range, on_face, progress);
     }
     result.face = face.number;
     for (Umbilic& umbilic : result.umbilics) {
         umbilic.at.face = face.number;
-        if (!face.region.whole_domain())
-            umbilic.containment = face.region.classify(umbilic.at.u, umbilic.at.v, umbilic.radius);
+        // A pole is an end of the domain, but an inner point of the face if the loops leave it so.
+        if (umbilic.pole == PoleKind::none)
+            umbilic.containment = containment(face, umbilic);
+        else if (!face.region.whole_domain())
+            umbilic.containment = pole_containment(face, umbilic);
     }
     return result;
 }

@@ -28,9 +28,10 @@ PatchUmbilics PatchSearch::search(const BezierPatch& patch, const InputRounding&
                                   const Progress& progress) {
     PatchUmbilics result;
     equations_.form_fundamental(patch, input);
-    for (const Edge edge : {Edge::u_low, Edge::u_high, Edge::v_low, Edge::v_high}) {
-        result.collapsed = result.collapsed || equations_.collapsed(edge);
-        if (const int k = static_cast<int>(edge); task.edges[k])
+    for (const PatchEdge edge : {PatchEdge::u_low, PatchEdge::u_high, PatchEdge::v_low, PatchEdge::v_high}) {
+        const int k = static_cast<int>(edge);
+        result.collapsed[k] = equations_.collapsed(edge);
+        if (task.edges[k])
             result.turning[k] = {
                 true, turning(equations_.edge_equations(edge), patch.domain.u.length(), patch.domain.v.length())};
     }
@@ -42,7 +43,7 @@ PatchUmbilics PatchSearch::search(const BezierPatch& patch, const InputRounding&
 
     ParameterBox regular{{0.0, 1.0}, {0.0, 1.0}};
     std::vector<ParameterBox> strips;
-    const auto cut = [&](Edge edge, ParameterInterval ParameterBox::*side, bool low_end) {
+    const auto cut = [&](PatchEdge edge, ParameterInterval ParameterBox::*side, bool low_end) {
         if (!equations_.collapsed(edge)) return;
         ParameterBox strip = regular;
         if (low_end)
@@ -51,10 +52,10 @@ PatchUmbilics PatchSearch::search(const BezierPatch& patch, const InputRounding&
             (strip.*side).low = (regular.*side).high = (regular.*side).high - pole_share;
         strips.push_back(strip);
     };
-    cut(Edge::u_low, &ParameterBox::u, true);
-    cut(Edge::u_high, &ParameterBox::u, false);
-    cut(Edge::v_low, &ParameterBox::v, true);
-    cut(Edge::v_high, &ParameterBox::v, false);
+    cut(PatchEdge::u_low, &ParameterBox::u, true);
+    cut(PatchEdge::u_high, &ParameterBox::u, false);
+    cut(PatchEdge::v_low, &ParameterBox::v, true);
+    cut(PatchEdge::v_high, &ParameterBox::v, false);
 
     zeros_.search(regular, task.limits, progress, result.zeros);
     refine(task, progress, result.zeros);

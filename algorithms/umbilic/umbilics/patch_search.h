@@ -20,8 +20,8 @@ struct EdgeTurning {
 struct PatchUmbilics {
     CommonZeros zeros;
     bool formed = false;
-    bool collapsed = false;              ///< an edge is a single point
-    std::array<EdgeTurning, 4> turning;  ///< indexed by Edge
+    std::array<bool, 4> collapsed{};     ///< edges that are a single point, indexed by PatchEdge
+    std::array<EdgeTurning, 4> turning;  ///< indexed by PatchEdge
 };
 
 /// What is asked of one patch.

@@ -63,6 +63,13 @@ std::optional<GenericType> generic_type(UmbilicType type, StarKind star);
 /// C(x, y) / 6 is a surface with this omega at the origin.
 Cubic cubic_of_omega(std::complex<double> omega);
 
+/// Whether a point is a pole: a side of the surface's domain that is a single point in space.
+enum class PoleKind {
+    none,
+    inner,  ///< the surface closes around it
+    border  ///< a corner of the surface
+};
+
 /// An isolated umbilical point of a face.
 struct Umbilic {
     SurfacePoint at;
@@ -80,12 +87,15 @@ struct Umbilic {
     /// The umbilic lies on, or within reach of, a knot line across which third derivatives jump: `kind` then covers the
     /// cubic forms of all sides.
     bool on_knot_line = false;
-    double index = 0.0;               ///< -0.5 for a star, +0.5 for lemon and monstar
+    double index = 0.0;               ///< -0.5 for a star, +0.5 for lemon and monstar; see also `pole`
     std::vector<Vector3> directions;  ///< unit tangents of the lines of curvature that run into it
     ParameterBox box;                 ///< box inside which existence and uniqueness were proved
     double radius = 0.0;  ///< proved distance from (u, v) to the true umbilic, relative to the domain's sides
     bool certified = false;
     Containment containment = Containment::inside;
+    /// At a pole `box` is the whole side of the domain; the index is the turning of the principal directions around it
+    /// in the tangent plane (of a corner: as if its sector were repeated), a multiple of 1/2.
+    PoleKind pole = PoleKind::none;
 };
 
 /// Boxes that the search could neither accept nor exclude, joined where they touch.
@@ -110,12 +120,12 @@ struct UmbilicRegion {
 };
 
 /// Completeness: on a domain, the indices of all umbilics sum to the winding of the principal direction field along its
-/// boundary.
+/// boundary. An umbilic on the boundary counts as inside, poles at corners do not count.
 struct Certificate {
     double index_sum = 0.0;
     double boundary_winding = 0.0;  ///< turns, a multiple of 1/2; meaningful only where `complete` has a value
     std::optional<bool> complete;   ///< no value: could not be evaluated
-    std::string why;                ///< reason where not evaluable or not complete
+    std::string why;                ///< on what the verdict rests, or why there is none
 };
 
 struct UmbilicSearchStatistics {
@@ -133,6 +143,8 @@ struct FaceUmbilics {
     std::vector<UmbilicLine> lines;
     std::vector<UmbilicRegion> regions;
     Certificate certificate;
+    /// What was searched and certified: whole Bezier patches, at least those that the face's loops touch.
+    ParameterBox searched;
     UmbilicSearchStatistics statistics;
 };
 

@@ -85,10 +85,61 @@ bool smooth_inside(const KnotVector& knots, const ParameterInterval& interval) {
     return true;
 }
 
-/// The part of `interval` within `piece`, in the piece's own parameter.
-ParameterInterval local_part(const ParameterInterval& piece, const ParameterInterval& interval) {
-    const auto local = [&](double value) { return std::clamp((value - piece.low) / piece.length(), 0.0, 1.0); };
-    return {local(interval.low), local(interval.high)};
+/// Number of the piece between `breaks` that holds `value`, the nearest one of [first, last).
+int piece_number(const std::vector<double>& breaks, double value, int first, int last) {
+    const auto after = std::upper_bound(breaks.begin(), breaks.end(), value);
+    return std::clamp(static_cast<int>(after - breaks.begin()) - 1, first, last - 1);
+}
+
+/// Univariate coefficients on an edge or at a parameter across it, with a bound on their errors.
+struct Line {
+    std::vector<double> coefficients;
+    double error = 0.0;
+};
+
+double largest(const std::vector<double>& values) {
+    double result = 0.0;
+    for (const double value : values) result = std::max(result, std::abs(value));
+    return result;
+}
+
+/// Growth of errors in de Casteljau's algorithm at t, which may lie outside [0, 1].
+double growth(int degree, double t) {
+    return t >= 0.0 && t <= 1.0 ? 1.0 : std::pow(std::abs(t) + std::abs(1.0 - t), degree) * bound_slack;
+}
+
+Line line_across(CoefficientShape shape, const std::vector<double>& c, double error, bool along_u, double t) {
+    const int degree = along_u ? shape.p : shape.q, other = along_u ? shape.q : shape.p;
+    const int stride = along_u ? 1 : shape.row_length(), next = along_u ? shape.row_length() : 1;
+    Line line;
+    line.coefficients.resize(degree + 1);
+    std::vector<double> column(other + 1);
+    for (int k = 0; k <= degree; ++k) {
+        for (int i = 0; i <= other; ++i) column[i] = c[k * next + i * stride];
+        if (t == 1.0) {
+            column[0] = column[other];
+        } else if (t != 0.0) {
+            for (int step = 1; step <= other; ++step)
+                for (int i = 0; i <= other - step; ++i) column[i] = (1.0 - t) * column[i] + t * column[i + 1];
+        }
+        line.coefficients[k] = column[0];
+    }
+    const double factor = growth(other, t);
+    line.error = (error + gamma_bound(6 * other) * largest(c)) * factor * bound_slack;
+    return line;
+}
+
+void restrict_to(Line& line, double low, double high) {
+    if (low == 0.0 && high == 1.0) return;
+    // restrict_v takes the upper end first, which must be well inside.
+    const bool mirrored = low + high < 1.0;
+    if (mirrored) std::reverse(line.coefficients.begin(), line.coefficients.end());
+    const int degree = static_cast<int>(line.coefficients.size()) - 1;
+    const double size = largest(line.coefficients);
+    const double factor =
+        restrict_v({0, degree}, line.coefficients.data(), mirrored ? 1.0 - high : low, mirrored ? 1.0 - low : high);
+    if (mirrored) std::reverse(line.coefficients.begin(), line.coefficients.end());
+    line.error = (line.error + gamma_bound(6 * degree) * size) * factor * bound_slack;
 }
 
 }  // namespace
@@ -99,53 +150,93 @@ std::optional<double> whole_turns(double angle) {
     return std::round(turns);
 }
 
-std::optional<double> rectangle_winding(const NurbsSurface& surface, const BezierPatches& patches,
-                                        const InputRounding& input, const ParameterBox& rectangle) {
-    if (!smooth_inside(surface.u_knots(), rectangle.u) || !smooth_inside(surface.v_knots(), rectangle.v))
-        return std::nullopt;
-    UmbilicEquations equations;
+PathTurning::PathTurning(const NurbsSurface& surface, const BezierPatches& patches, const InputRounding& input,
+                         const PatchRange& range)
+    : surface_(surface), patches_(patches), input_(input), range_(range) {}
+
+const PathTurning::Formed& PathTurning::formed(int i, int j) {
+    const std::size_t number = static_cast<std::size_t>(i) * patches_.v_count + j;
+    const auto [entry, added] = formed_.try_emplace(number);
+    Formed& result = entry->second;
+    if (!added) return result;
+    equations_.form_fundamental(patches_.patches[number], input_);
+    equations_.form_umbilic();
+    result.shape = {equations_.a().u_degree, equations_.a().v_degree};
+    for (int k = 0; k < 2; ++k) {
+        result.coefficients[k].resize(result.shape.size());
+        result.error[k] =
+            (k == 0 ? equations_.a() : equations_.b()).bernstein_coefficients(result.coefficients[k]).rounding;
+    }
+    return result;
+}
+
+std::optional<double> PathTurning::piece(bool along_u, double from, double to, double across) {
+    const double middle = 0.5 * (from + to);
+    const Vector2 at = along_u ? Vector2(middle, across) : Vector2(across, middle);
+    const int i = piece_number(surface_.u_knots().breaks(), at.x(), range_.u_first, range_.u_last);
+    const int j = piece_number(surface_.v_knots().breaks(), at.y(), range_.v_first, range_.v_last);
+    const Formed& patch = formed(i, j);
+    const ParameterBox& domain = patches_.patches[static_cast<std::size_t>(i) * patches_.v_count + j].domain;
+    const ParameterInterval &own = along_u ? domain.u : domain.v, &other = along_u ? domain.v : domain.u;
+    Line line[2];
+    for (int k = 0; k < 2; ++k) {
+        line[k] = line_across(patch.shape, patch.coefficients[k], patch.error[k], along_u,
+                              (across - other.low) / other.length());
+        restrict_to(line[k], (from - own.low) / own.length(), (to - own.low) / own.length());
+    }
+    return turning({line[0].coefficients, line[1].coefficients, line[0].error, line[1].error}, domain.u.length(),
+                   domain.v.length());
+}
+
+std::optional<double> PathTurning::along(const Vector2& from, const Vector2& to) {
+    const bool along_u = from.y() == to.y();
+    const double start = along_u ? from.x() : from.y(), end = along_u ? to.x() : to.y();
+    if (start == end) return 0.0;
+    const double low = std::min(start, end), high = std::max(start, end);
+    const std::vector<double>& breaks = (along_u ? surface_.u_knots() : surface_.v_knots()).breaks();
+    const int first = along_u ? range_.u_first : range_.v_first, last = along_u ? range_.u_last : range_.v_last;
+    double angle = 0.0, at = low;
+    for (int k = first + 1; k <= last; ++k) {
+        const double next = k == last ? high : std::min(high, breaks[k]);
+        if (next <= at) continue;
+        const std::optional<double> part = piece(along_u, at, next, along_u ? from.y() : from.x());
+        if (!part) return std::nullopt;
+        angle += *part;
+        at = next;
+    }
+    return start < end ? angle : -angle;
+}
+
+std::optional<double> PathTurning::winding(std::span<const Vector2> corners) {
     double angle = 0.0;
-    for (const BezierPatch& patch : patches.patches) {
-        const ParameterBox& domain = patch.domain;
-        if (domain.u.low >= rectangle.u.high || domain.u.high <= rectangle.u.low || domain.v.low >= rectangle.v.high ||
-            domain.v.high <= rectangle.v.low)
-            continue;
-        const std::array<bool, 4> on_border = {domain.u.low <= rectangle.u.low, domain.u.high >= rectangle.u.high,
-                                               domain.v.low <= rectangle.v.low, domain.v.high >= rectangle.v.high};
-        if (!std::any_of(on_border.begin(), on_border.end(), [](bool b) { return b; })) continue;
-        equations.form_fundamental(patch, input);
-        equations.form_umbilic();
-        const ParameterInterval u = local_part(domain.u, rectangle.u), v = local_part(domain.v, rectangle.v);
-        const CoefficientShape shape{equations.a().u_degree, equations.a().v_degree};
-        std::array<std::vector<double>, 2> c;
-        std::array<double, 2> error{};
-        for (int k = 0; k < 2; ++k) {
-            const TensorPolynomial& polynomial = k == 0 ? equations.a() : equations.b();
-            c[k].resize(shape.size());
-            error[k] = polynomial.bernstein_coefficients(c[k]).rounding +
-                       gamma_bound(6 * (shape.p + shape.q)) * polynomial.magnitude * bound_slack;
-            restrict_u(shape, c[k].data(), u.low, u.high);
-            restrict_v(shape, c[k].data(), v.low, v.high);
-        }
-        for (const Edge edge : {Edge::u_low, Edge::u_high, Edge::v_low, Edge::v_high}) {
-            if (!on_border[static_cast<int>(edge)]) continue;
-            const bool across_u = edge == Edge::u_low || edge == Edge::u_high;
-            const int degree = across_u ? shape.q : shape.p;
-            EdgeEquations pair;
-            pair.a_error = error[0];
-            pair.b_error = error[1];
-            for (int k = 0; k <= degree; ++k) {
-                const int i = across_u ? (edge == Edge::u_low ? 0 : shape.p) : k;
-                const int j = across_u ? k : (edge == Edge::v_low ? 0 : shape.q);
-                pair.a.push_back(c[0][i * shape.row_length() + j]);
-                pair.b.push_back(c[1][i * shape.row_length() + j]);
-            }
-            const std::optional<double> part = turning(pair, domain.u.length(), domain.v.length());
-            if (!part) return std::nullopt;
-            angle += edge == Edge::v_low || edge == Edge::u_high ? *part : -*part;
-        }
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        const std::optional<double> part = along(corners[k], corners[(k + 1) % corners.size()]);
+        if (!part) return std::nullopt;
+        angle += *part;
     }
     return whole_turns(angle);
+}
+
+std::optional<double> rectangle_winding(const NurbsSurface& surface, const BezierPatches& patches,
+                                        const InputRounding& input, const ParameterBox& rectangle) {
+    const KnotVector &u_knots = surface.u_knots(), &v_knots = surface.v_knots();
+    if (!smooth_inside(u_knots, rectangle.u) || !smooth_inside(v_knots, rectangle.v)) return std::nullopt;
+    const auto first = [](const KnotVector& knots, double low, int count) {
+        return piece_number(knots.breaks(), low, 0, count);
+    };
+    const auto end = [](const KnotVector& knots, double high, int count) {
+        const auto at = std::lower_bound(knots.breaks().begin(), knots.breaks().end(), high);
+        return std::clamp(static_cast<int>(at - knots.breaks().begin()), 1, count);
+    };
+    PatchRange range{first(u_knots, rectangle.u.low, patches.u_count), end(u_knots, rectangle.u.high, patches.u_count),
+                     first(v_knots, rectangle.v.low, patches.v_count), end(v_knots, rectangle.v.high, patches.v_count)};
+    range.u_last = std::max(range.u_last, range.u_first + 1);
+    range.v_last = std::max(range.v_last, range.v_first + 1);
+    const Vector2 corners[4] = {{rectangle.u.low, rectangle.v.low},
+                                {rectangle.u.high, rectangle.v.low},
+                                {rectangle.u.high, rectangle.v.high},
+                                {rectangle.u.low, rectangle.v.high}};
+    return PathTurning(surface, patches, input, range).winding(corners);
 }
 
 }  // namespace umbilic
