@@ -24,8 +24,11 @@ std::string complex_text(const std::optional<std::complex<double>>& value) {
 }
 
 std::string certificate_text(const Certificate& certificate) {
-    if (!certificate.complete) return "completeness not evaluated: " + certificate.why;
-    return *certificate.complete ? "complete" : "not complete: " + certificate.why;
+    std::string text = !certificate.complete   ? "completeness "
+                       : *certificate.complete ? "complete: "
+                                               : "not complete: ";
+    text += certificate.why;
+    return text;
 }
 
 std::string face_line(const Face& face, const FaceUmbilics& found) {
@@ -37,18 +40,24 @@ std::string face_line(const Face& face, const FaceUmbilics& found) {
     return text;
 }
 
+std::string type_text(const Umbilic& umbilic) {
+    const UmbilicClass& kind = umbilic.kind;
+    std::string text = kind.star == StarKind::none ? "" : std::string(name(kind.star)) + " ";
+    text += name(kind.type);
+    if (umbilic.pole != PoleKind::none) text += ", pole";
+    return text;
+}
+
 std::string umbilic_table(const Model& model, const std::vector<FaceUmbilics>& all) {
     std::vector<std::vector<std::string>> rows;
     for (const FaceUmbilics& found : all) {
         const Face& face = model.face(found.face);
         for (const Umbilic& umbilic : found.umbilics) {
             const Vector2 native = native_parameters(face, umbilic.at.u, umbilic.at.v);
-            const UmbilicClass& kind = umbilic.kind;
-            rows.push_back(
-                {std::to_string(face.number), readable(native.x(), 8), readable(native.y(), 8),
-                 kind.star == StarKind::none ? name(kind.type) : std::string(name(kind.star)) + " " + name(kind.type),
-                 readable(umbilic.kappa), complex_text(kind.omega), readable(umbilic.index, 2),
-                 umbilic.certified ? "yes" : "no", umbilic.containment == Containment::outside ? "no" : "yes"});
+            rows.push_back({std::to_string(face.number), readable(native.x(), 8), readable(native.y(), 8),
+                            type_text(umbilic), readable(umbilic.kappa), complex_text(umbilic.kind.omega),
+                            readable(umbilic.index, 2), umbilic.certified ? "yes" : "no",
+                            umbilic.containment == Containment::outside ? "no" : "yes"});
         }
     }
     if (rows.empty()) return "";

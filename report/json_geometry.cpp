@@ -71,6 +71,7 @@ Json face_umbilics_json(const Face& face, const FaceUmbilics& found) {
             {"lines", std::move(lines)},
             {"regions", std::move(regions)},
             {"undecided", std::move(undecided)},
+            {"searched", box_json(face, found.searched)},
             {"certificate", certificate_json(found.certificate)}};
 }
 
@@ -134,7 +135,9 @@ Json umbilic_json(const Face& face, const Umbilic& umbilic) {
             {"box", box_json(face, umbilic.box)},
             {"certified", umbilic.certified},
             {"inside", umbilic.containment != Containment::outside},
-            {"containment", word(umbilic.containment)}};
+            {"containment", word(umbilic.containment)},
+            {"pole", umbilic.pole == PoleKind::none ? Json(nullptr)
+                                                    : Json(umbilic.pole == PoleKind::inner ? "inner" : "border")}};
 }
 
 Json umbilics_json(const Model& model, const std::vector<FaceUmbilics>& umbilics) {

@@ -100,6 +100,7 @@ TEST(Json, Umbilics) {
                        {"umbilics", "array"},
                        {"lines", "array"},
                        {"regions", "array"},
+                       {"searched", "array"},
                        {"certificate/index_sum", "number"},
                        {"certificate/boundary_winding", "number?"},
                        {"certificate/complete", "boolean?"},
