@@ -64,16 +64,16 @@ MultivariatePolynomial slope(const Net& net, bool rational, int unknown) {
     return component(0) + component(1) + component(2);
 }
 
-bool across_u(Edge edge) {
-    return edge == Edge::u_low || edge == Edge::u_high;
+bool across_u(PatchEdge edge) {
+    return edge == PatchEdge::u_low || edge == PatchEdge::u_high;
 }
 
-bool high(Edge edge) {
-    return edge == Edge::u_high || edge == Edge::v_high;
+bool high(PatchEdge edge) {
+    return edge == PatchEdge::u_high || edge == PatchEdge::v_high;
 }
 
 /// Indices, in an array of (p + 1) x (q + 1), of the coefficients on an edge, increasing along it.
-std::vector<std::size_t> on_edge(std::span<const int> degrees, Edge edge) {
+std::vector<std::size_t> on_edge(std::span<const int> degrees, PatchEdge edge) {
     const std::size_t p = degrees[0], q = degrees[1];
     std::vector<std::size_t> result;
     if (across_u(edge))
@@ -83,7 +83,7 @@ std::vector<std::size_t> on_edge(std::span<const int> degrees, Edge edge) {
     return result;
 }
 
-bool is_collapsed(const Net& net, Edge edge) {
+bool is_collapsed(const Net& net, PatchEdge edge) {
     const std::vector<std::size_t> at = on_edge(net[0].degrees, edge);
     const MultivariatePolynomial& w = net[3];
     for (int k = 0; k < 3; ++k) {
@@ -97,7 +97,7 @@ bool is_collapsed(const Net& net, Edge edge) {
 }
 
 /// Divides by the factors that vanish on the edge as far as the coefficients there are 0 within the error; how many.
-int divide_by_edge(MultivariatePolynomial& f, Edge edge) {
+int divide_by_edge(MultivariatePolynomial& f, PatchEdge edge) {
     const int unknown = across_u(edge) ? 0 : 1;
     int order = 0;
     for (; order < maximum_pole_order && f.degrees[unknown] > 0; ++order) {
@@ -122,7 +122,7 @@ StationaryEquations stationary_equations(const BezierPatch& patch, const InputRo
     const Net net = relative_net(patch, input, point);
     StationaryEquations result;
     for (int unknown = 0; unknown < 2; ++unknown) result.f[unknown] = slope(net, patch.rational, unknown);
-    for (const Edge edge : {Edge::u_low, Edge::u_high, Edge::v_low, Edge::v_high}) {
+    for (const PatchEdge edge : {PatchEdge::u_low, PatchEdge::u_high, PatchEdge::v_low, PatchEdge::v_high}) {
         const int k = static_cast<int>(edge);
         result.collapsed[k] = is_collapsed(net, edge);
         if (!result.collapsed[k]) continue;
@@ -132,12 +132,12 @@ StationaryEquations stationary_equations(const BezierPatch& patch, const InputRo
     return result;
 }
 
-bool collapsed(const BezierPatch& patch, const InputRounding& input, Edge edge) {
+bool collapsed(const BezierPatch& patch, const InputRounding& input, PatchEdge edge) {
     return is_collapsed(relative_net(patch, input, patch.origin), edge);
 }
 
 MultivariatePolynomial stationary_edge_equation(const BezierPatch& patch, const InputRounding& input,
-                                                const Vector3& point, Edge edge) {
+                                                const Vector3& point, PatchEdge edge) {
     Net net = relative_net(patch, input, point);
     const std::vector<std::size_t> at = on_edge(net[0].degrees, edge);
     for (MultivariatePolynomial& x : net) {

@@ -16,19 +16,19 @@ namespace umbilic {
 /// one. At a collapsed edge the factors that vanish there are divided out.
 struct StationaryEquations {
     std::array<MultivariatePolynomial, 2> f;
-    /// By Edge: all control points of the edge coincide within the input's rounding.
+    /// By PatchEdge: all control points of the edge coincide within the input's rounding.
     std::array<bool, 4> collapsed{};
-    /// By Edge: it is collapsed and the distance is stationary at its point, within rounding.
+    /// By PatchEdge: it is collapsed and the distance is stationary at its point, within rounding.
     std::array<bool, 4> stationary_pole{};
 };
 
 StationaryEquations stationary_equations(const BezierPatch& patch, const InputRounding& input, const Vector3& point);
 
 /// Whether all control points of an edge coincide within the input's rounding.
-bool collapsed(const BezierPatch& patch, const InputRounding& input, Edge edge);
+bool collapsed(const BezierPatch& patch, const InputRounding& input, PatchEdge edge);
 
 /// The equation of one edge of a patch: a polynomial of its parameter.
 MultivariatePolynomial stationary_edge_equation(const BezierPatch& patch, const InputRounding& input,
-                                                const Vector3& point, Edge edge);
+                                                const Vector3& point, PatchEdge edge);
 
 }  // namespace umbilic

@@ -175,11 +175,11 @@ Finder::Found Finder::search_patch(const BezierPatch& patch, const Progress& pro
     }
     for (const UndecidedBox& undecided : roots.undecided)
         result.undecided.push_back({placed(domain[0], undecided.box[0]), placed(domain[1], undecided.box[1])});
-    for (const Edge edge : {Edge::u_low, Edge::u_high, Edge::v_low, Edge::v_high}) {
+    for (const PatchEdge edge : {PatchEdge::u_low, PatchEdge::u_high, PatchEdge::v_low, PatchEdge::v_high}) {
         if (!equations.collapsed[static_cast<int>(edge)]) continue;
         const bool stationary = equations.stationary_pole[static_cast<int>(edge)];
-        StationaryPoint pole = make_point(edge == Edge::u_high ? domain[0].high : domain[0].low,
-                                          edge == Edge::v_high ? domain[1].high : domain[1].low,
+        StationaryPoint pole = make_point(edge == PatchEdge::u_high ? domain[0].high : domain[0].low,
+                                          edge == PatchEdge::v_high ? domain[1].high : domain[1].low,
                                           stationary ? FootKind::interior : FootKind::corner);
         pole.certified = !stationary;
         result.poles.push_back(std::move(pole));
@@ -192,7 +192,8 @@ Finder::Found Finder::search_edge(const EdgeLine& line, int piece, const Progres
     const bool last = line.index == static_cast<int>(breaks_[line.direction].size()) - 1;
     const int across = last ? line.index - 1 : line.index;
     const BezierPatch& beside = along_v ? patch(across, piece) : patch(piece, across);
-    const Edge edge = along_v ? (last ? Edge::u_high : Edge::u_low) : (last ? Edge::v_high : Edge::v_low);
+    const PatchEdge edge =
+        along_v ? (last ? PatchEdge::u_high : PatchEdge::u_low) : (last ? PatchEdge::v_high : PatchEdge::v_low);
     Found result;
     if (collapsed(beside, input_, edge)) return result;  // search_patch reports its point
     const MultivariatePolynomial f = stationary_edge_equation(beside, input_, p_, edge);
