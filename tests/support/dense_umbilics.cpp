@@ -19,9 +19,9 @@ using Real = long double;
 constexpr int first_cells = 8;
 constexpr int deepest = 14;
 /// Remainders of linear models are taken to be this many times what second differences show.
-constexpr double safety = 2.0;
+constexpr double safety = 4.0;
 /// A cell whose remainder is below this share of the linear part holds at most one umbilic.
-constexpr double single = 0.3;
+constexpr double single = 0.15;
 constexpr double outside = 1e-9;
 
 /// Coefficients of 1, s, s^2 ... with t = centre + half * s of the B-splines that do not vanish on a span, by the

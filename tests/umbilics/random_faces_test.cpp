@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The search against an independent one on random faces. The whole run:
-//   UMBILIC_RANDOM_FACES=10000 umbilics_random_faces_tests --gtest_filter=RandomFaces.*
+//   UMBILIC_RANDOM_FACES=10000 umbilics_random_faces_tests --gtest_filter=*FindsWhat*
+// One face: UMBILIC_FIRST_FACE=1426 UMBILIC_RANDOM_FACES=1.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,11 +24,11 @@ using support::SampledUmbilic;
 /// Faces of a run that nobody gave a number: what ten seconds allow.
 constexpr unsigned faces_by_default = 400;
 /// First seed; the faces of a run are the seeds that follow.
-constexpr unsigned first_seed = 1000;
+constexpr unsigned first_by_default = 1000;
 
-unsigned face_count() {
-    const char* asked = std::getenv("UMBILIC_RANDOM_FACES");
-    return asked ? static_cast<unsigned>(std::atoi(asked)) : faces_by_default;
+unsigned asked(const char* variable, unsigned otherwise) {
+    const char* value = std::getenv(variable);
+    return value ? static_cast<unsigned>(std::atoi(value)) : otherwise;
 }
 
 /// Distance in parameters, relative to the domain.
@@ -152,7 +153,8 @@ void compare(unsigned seed, Tally& tally) {
 
 TEST(RandomFaces, FindsWhatAnIndependentSearchFinds) {
     Tally tally;
-    for (unsigned k = 0; k < face_count(); ++k) compare(first_seed + k, tally);
+    const unsigned first = asked("UMBILIC_FIRST_FACE", first_by_default);
+    for (unsigned k = 0; k < asked("UMBILIC_RANDOM_FACES", faces_by_default); ++k) compare(first + k, tally);
     std::printf(
         "faces %ld, umbilics found %ld, sampled %ld, matched %ld, missed %ld, left open %ld, spurious %ld, unsampled "
         "%ld, unresolved cells %ld, duplicates %ld, wrong index %ld, outside their radius %ld, certificates evaluable "
@@ -161,7 +163,8 @@ TEST(RandomFaces, FindsWhatAnIndependentSearchFinds) {
         tally.faces, tally.umbilics, tally.sampled, tally.matched, tally.missed, tally.left_open, tally.spurious,
         tally.unsampled, tally.unresolved, tally.duplicates, tally.wrong_index, tally.far, tally.evaluable,
         tally.false_certificates, tally.open_faces, tally.open_parts, tally.search_seconds, tally.sampling_seconds);
-    EXPECT_GT(tally.matched, tally.faces / 2);
+    if (tally.faces < 100) return;
+    EXPECT_GT(tally.matched, tally.faces);
     EXPECT_GT(tally.evaluable, tally.faces / 2);
 }
 
