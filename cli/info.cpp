@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <memory>
+#include <numbers>
+#include <optional>
 #include <string>
+
+#include <umbilic/differential/recognise.h>
 
 #include <cli/commands.h>
 #include <cli/console.h>
@@ -35,6 +39,28 @@ std::string summary(const Model& model) {
                   {"Repaired", model.repaired.empty() ? std::string() : readable_count(model.repaired.size())}});
 }
 
+std::string recognised_text(const RecognisedSurface& recognised) {
+    const ElementarySurface& surface = recognised.surface;
+    std::string text = name(recognised.kind);
+    if (elementary(recognised.kind) && recognised.kind != SurfaceKind::plane)
+        text += ", radius " + readable(surface.radius, "mm");
+    if (recognised.kind == SurfaceKind::torus) text += " and " + readable(surface.minor_radius, "mm");
+    if (recognised.kind == SurfaceKind::cone)
+        text += ", half angle " + readable(surface.semi_angle * 180.0 / std::numbers::pi) + "°";
+    return text + (recognised.exact ? ", exact" : ", within " + readable(recognised.deviation, "mm", 2));
+}
+
+/// NURBS faces that are some simpler surface besides.
+std::string recognised_table(const Model& model, const std::vector<std::optional<RecognisedSurface>>& recognised) {
+    std::vector<std::vector<std::string>> rows;
+    for (std::size_t k = 0; k < recognised.size(); ++k) {
+        if (!recognised[k]) continue;
+        rows.push_back(
+            {std::to_string(model.faces[k].number), name(model.faces[k].kind), recognised_text(*recognised[k])});
+    }
+    return rows.empty() ? "" : "\n" + table({"face", "surface", "recognised as"}, rows, {0});
+}
+
 std::string face_table(const Model& model) {
     std::vector<std::vector<std::string>> rows;
     for (const Face& face : model.faces) {
@@ -60,8 +86,10 @@ void add_info(CLI::App& application, Session& session, Command& command) {
         command = [&session, path] {
             const ReadResult read = load(session, *path, {}, session.progress);
             clear_progress_bar();
-            print(session, summary(read.model) + "\n" + face_table(read.model));
-            write_json(session, info_json(read.model));
+            const auto recognised = recognise(read.model, {}, session.progress);
+            print(session,
+                  summary(read.model) + "\n" + face_table(read.model) + recognised_table(read.model, recognised));
+            write_json(session, info_json(read.model, recognised));
             return exit_done;
         };
     });

@@ -100,6 +100,9 @@ void add_match_options(CLI::App& subcommand, MatchWords& words) {
     add("--umbilic_accuracy", words.features.umbilics.accuracy,
         "How far (mm) control points may be from where they should be: types that this changes are non-generic",
         CLI::NonNegativeNumber);
+    add("--umbilic_recognition", words.features.umbilics.recognition,
+        "Deviation from a plane or sphere, relative to a face's size, within which it is umbilic everywhere",
+        CLI::NonNegativeNumber);
 }
 
 void read_given_poses(MatchWords& words) {

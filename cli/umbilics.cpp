@@ -92,6 +92,11 @@ void add_umbilics(CLI::App& application, Session& session, Command& command) {
                      "How far (mm) control points may be from where they should be: types that this changes are "
                      "called non-generic")
         ->check(CLI::NonNegativeNumber);
+    subcommand
+        ->add_option("--umbilic_recognition", options->search.recognition,
+                     "Deviation from a plane or sphere, relative to a face's size, within which it is umbilic "
+                     "everywhere; 0 finds the umbilics of its ripples")
+        ->check(CLI::NonNegativeNumber);
     add_common_options(*subcommand, session);
     subcommand->callback([&session, &command, options] {
         command = [&session, options] {

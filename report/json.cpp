@@ -48,10 +48,11 @@ Json input_json(const Model& model) {
             {"warnings", model.warnings}};
 }
 
-Json info_json(const Model& model) {
+Json info_json(const Model& model, const std::vector<std::optional<RecognisedSurface>>& recognised) {
     std::map<std::string, int> by_surface;
     Json faces = Json::array();
-    for (const Face& face : model.faces) {
+    for (std::size_t k = 0; k < model.faces.size(); ++k) {
+        const Face& face = model.faces[k];
         ++by_surface[name(face.kind)];
         faces.push_back({{"face", face.number},
                          {"surface", name(face.kind)},
@@ -65,7 +66,8 @@ Json info_json(const Model& model) {
                          {"orientation", face.reversed ? "reversed" : "forward"},
                          {"solid", face.solid < 0 ? Json(nullptr) : Json(face.solid + 1)},
                          {"name", face.name},
-                         {"conversion_error", number_json(face.conversion_error)}});
+                         {"conversion_error", number_json(face.conversion_error)},
+                         {"recognised", recognised[k] ? recognised_json(*recognised[k]) : Json(nullptr)}});
     }
     return {{"schema", "umbilic.info/1"},
             {"input", input_json(model)},

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include <umbilic/differential/recognise.h>
 #include <umbilic/similarity/compare.h>
 
 namespace umbilic {
@@ -27,8 +29,8 @@ std::string text(const Json& json);
 /// The model as an exhibit: file, checksum, unit, counts, mass properties, what was skipped or repaired.
 Json input_json(const Model& model);
 
-/// Schema "umbilic.info/1".
-Json info_json(const Model& model);
+/// Schema "umbilic.info/1". `recognised` as recognise() gives it for this model.
+Json info_json(const Model& model, const std::vector<std::optional<RecognisedSurface>>& recognised);
 
 /// Schema "umbilic.umbilics/1". `umbilics` as find_umbilics() gives them for this model, or for some of its faces. The
 /// parameters u and v are those of the file's own surfaces.

@@ -36,6 +36,11 @@ const char* word(Containment containment) {
     return "boundary";
 }
 
+Json native_json(const Face& face, const Vector2& at) {
+    const Vector2 native = native_parameters(face, at.x(), at.y());
+    return {number_json(native.x()), number_json(native.y())};
+}
+
 Json certificate_json(const Certificate& certificate) {
     return {{"index_sum", number_json(certificate.index_sum)},
             {"boundary_winding", certificate.complete ? number_json(certificate.boundary_winding) : Json(nullptr)},
@@ -50,13 +55,36 @@ Json face_umbilics_json(const Face& face, const FaceUmbilics& found) {
     for (const UmbilicLine& line : found.lines) {
         Json points = Json::array();
         for (const Vector3& point : line.points) points.push_back(vector_json(point));
-        lines.push_back({{"boxes", boxes_json(face, line.boxes)}, {"points", std::move(points)}});
+        Json parameters = Json::array();
+        for (const Vector2& at : line.parameters) parameters.push_back(native_json(face, at));
+        lines.push_back({{"boxes", boxes_json(face, line.boxes)},
+                         {"points", std::move(points)},
+                         {"parameters", std::move(parameters)},
+                         {"traced", line.traced},
+                         {"closed", line.closed},
+                         {"ends", {name(line.ends[0]), name(line.ends[1])}},
+                         {"length", number_json(line.length)},
+                         {"accuracy", number_json(line.accuracy)},
+                         {"containment", word(line.containment)}});
     }
     Json regions = Json::array();
     for (const UmbilicRegion& region : found.regions) {
+        const bool known = region.kind != UmbilicRegionKind::other;
+        const SurfaceKind kind = region.kind == UmbilicRegionKind::planar ? SurfaceKind::plane : SurfaceKind::sphere;
+        Json boundary = Json::array();
+        for (const RegionBoundary& loop : region.boundary) {
+            Json points = Json::array(), parameters = Json::array();
+            for (const Vector3& point : loop.points) points.push_back(vector_json(point));
+            for (const Vector2& at : loop.parameters) parameters.push_back(native_json(face, at));
+            boundary.push_back({{"points", std::move(points)}, {"parameters", std::move(parameters)}});
+        }
         regions.push_back({{"kind", name(region.kind)},
                            {"boxes", boxes_json(face, region.boxes)},
-                           {"area", number_json(region.area)}});
+                           {"border", boxes_json(face, region.border)},
+                           {"area", number_json(region.area)},
+                           {"deviation", known ? number_json(region.deviation) : Json(nullptr)},
+                           {"parameters", known ? elementary_json(kind, region.surface) : Json(nullptr)},
+                           {"boundary", std::move(boundary)}});
     }
     Json undecided = Json::array();
     for (const UndecidedCluster& cluster : found.undecided) {
@@ -72,6 +100,7 @@ Json face_umbilics_json(const Face& face, const FaceUmbilics& found) {
             {"regions", std::move(regions)},
             {"undecided", std::move(undecided)},
             {"searched", box_json(face, found.searched)},
+            {"recognised", found.recognised ? recognised_json(*found.recognised) : Json(nullptr)},
             {"certificate", certificate_json(found.certificate)}};
 }
 
@@ -83,6 +112,24 @@ Json vector_json(const Vector3& vector) {
 
 Json complex_json(std::complex<double> value) {
     return {number_json(value.real()), number_json(value.imag())};
+}
+
+Json elementary_json(SurfaceKind kind, const ElementarySurface& surface) {
+    Json result = {{"location", vector_json(surface.location)},
+                   {"axis", vector_json(surface.axis)},
+                   {"x_axis", vector_json(surface.x_axis)}};
+    if (elementary(kind) && kind != SurfaceKind::plane) result["radius"] = number_json(surface.radius);
+    if (kind == SurfaceKind::torus) result["minor_radius"] = number_json(surface.minor_radius);
+    if (kind == SurfaceKind::cone) result["semi_angle"] = number_json(surface.semi_angle);
+    return result;
+}
+
+Json recognised_json(const RecognisedSurface& recognised) {
+    return {{"kind", name(recognised.kind)},
+            {"deviation", number_json(recognised.deviation)},
+            {"exact", recognised.exact},
+            {"parameter_error", number_json(recognised.parameter_error)},
+            {"parameters", elementary_json(recognised.kind, recognised.surface)}};
 }
 
 Vector2 native_parameters(const Face& face, double u, double v) {

@@ -26,6 +26,12 @@ struct LocatedUmbilic {
 /// pointers live as long as the prepared model.
 std::vector<LocatedUmbilic> isolated_umbilics(const PreparedModel& prepared);
 
+/// Parameters of a surface of this kind: "location", "axis", "x_axis", and those of "radius", "minor_radius" and
+/// "semi_angle" it has.
+Json elementary_json(SurfaceKind kind, const ElementarySurface& surface);
+/// Kind, parameters and deviation.
+Json recognised_json(const RecognisedSurface& recognised);
+
 /// One isolated umbilic of a face.
 Json umbilic_json(const Face& face, const Umbilic& umbilic);
 

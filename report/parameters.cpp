@@ -101,6 +101,9 @@ std::vector<Parameter> match_parameters(const FeatureOptions& features, const Ma
     parameters.push_back(constant("umbilic_accuracy", search.accuracy, search_defaults.accuracy, "mm",
                                   "displacement of the surfaces' control points whose effect on the cubic forms is "
                                   "counted as their error, on top of rounding and conversion"));
+    parameters.push_back(constant("umbilic_recognition", search.recognition, search_defaults.recognition, "1",
+                                  "a NURBS face is umbilic everywhere if its distance from a plane or sphere, relative "
+                                  "to its size, is <= umbilic_recognition"));
     return parameters;
 }
 

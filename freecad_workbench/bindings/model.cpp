@@ -49,7 +49,8 @@ py::tuple mesh(const LoadedModel& loaded) {
 
 void bind_model(py::module_& module) {
     py::class_<LoadedModel, std::shared_ptr<LoadedModel>>(module, "Model")
-        .def("info_json", [](const LoadedModel& loaded) { return text(info_json(loaded.file.model)); })
+        .def("info_json",
+             [](const LoadedModel& loaded) { return text(info_json(loaded.file.model, recognise(loaded.file.model))); })
         .def("mesh", &mesh, "Points (n, 3) in mm and triangles (m, 3).");
     module.def("read", &read, py::arg("path"), py::arg("label"), py::arg("seconds"), py::arg("progress"));
     module.def("opencascade_version", &opencascade_version);

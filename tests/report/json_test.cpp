@@ -70,7 +70,7 @@ TEST(Json, TextSurvivesBytesThatAreNotUtf8) {
 
 TEST(Json, Info) {
     const auto made = made_comparison();
-    const Json json = info_json(made->original_model);
+    const Json json = info_json(made->original_model, recognise(made->original_model));
     EXPECT_EQ(json.at("schema"), "umbilic.info/1");
     expect_keys(json.at("input"), input_keys);
     expect_keys(json.at("faces").at(0), {{"face", "integer"},
@@ -84,7 +84,21 @@ TEST(Json, Info) {
                                          {"area", "number"},
                                          {"orientation", "string"}});
     EXPECT_EQ(json.at("faces").at(0).at("degree"), Json::parse("[3, 3]"));
+    EXPECT_TRUE(json.at("faces").at(0).at("recognised").is_null());
     expect_finite(json);
+}
+
+TEST(Json, InfoTellsWhatSurfacesAreBesides) {
+    const Model model = model_of({ellipsoid_octant(2.0, 2.0, 2.0)});
+    const Json recognised = info_json(model, recognise(model)).at("faces").at(0).at("recognised");
+    EXPECT_EQ(recognised.at("kind"), "sphere");
+    EXPECT_EQ(recognised.at("exact"), true);
+    EXPECT_NEAR(recognised.at("parameters").at("radius").get<double>(), 2.0, 1e-12);
+    EXPECT_FALSE(recognised.at("parameters").contains("semi_angle"));
+    expect_keys(recognised, {{"deviation", "number"},
+                             {"parameter_error", "number"},
+                             {"parameters/location/2", "number"},
+                             {"parameters/axis/2", "number"}});
 }
 
 TEST(Json, Umbilics) {

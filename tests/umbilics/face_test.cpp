@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
+#include <support/reparametrisation.h>
 #include <support/surfaces.h>
 #include <umbilic/umbilics/find.h>
 
@@ -53,6 +57,56 @@ TEST(FaceUmbilics, ElementaryKindsAreAnsweredWithoutASearch) {
     EXPECT_EQ(none.statistics.patches, 0);
     ASSERT_TRUE(none.certificate.complete);
     EXPECT_TRUE(*none.certificate.complete);
+}
+
+TEST(FaceUmbilics, RecognisedSurfacesAreAnsweredWithoutASearch) {
+    const auto answer = [](const NurbsSurface& surface) {
+        return find_umbilics(support::model_of({surface}).faces[0]);
+    };
+    const FaceUmbilics sphere = answer(support::ellipsoid_octant(2, 2, 2));
+    EXPECT_EQ(sphere.statistics.patches, 0);
+    ASSERT_TRUE(sphere.recognised);
+    EXPECT_TRUE(sphere.recognised->exact);
+    ASSERT_EQ(sphere.regions.size(), 1u);
+    EXPECT_EQ(sphere.regions[0].kind, UmbilicRegionKind::spherical);
+    EXPECT_NEAR(sphere.regions[0].surface.radius, 2.0, 1e-12);
+    EXPECT_NEAR(sphere.regions[0].area, 2 * std::numbers::pi, 1e-8);
+    EXPECT_LE(sphere.regions[0].deviation, 1e-14);
+
+    const FaceUmbilics torus = answer(support::torus_quarter(3, 1));
+    EXPECT_EQ(torus.statistics.patches, 0);
+    EXPECT_TRUE(torus.regions.empty());
+    ASSERT_TRUE(torus.recognised);
+    EXPECT_EQ(torus.recognised->kind, SurfaceKind::torus);
+    EXPECT_TRUE(torus.certificate.complete.value_or(false));
+}
+
+TEST(FaceUmbilics, NearlyASphereIsARegionUnlessItsRipplesAreWanted) {
+    // A sphere of radius 2 with ripples without symmetry.
+    const NurbsSurface exact = support::elevated(support::ellipsoid_octant(2, 2, 2), 2, 2).surface;
+    for (const double ripple : {1e-9, 1e-6}) {
+        std::vector<Vector3> poles = exact.poles();
+        for (int i = 1; i < exact.u_pole_count() - 1; ++i)
+            for (int j = 1; j < exact.v_pole_count() - 1; ++j)
+                poles[i * exact.v_pole_count() + j] += ripple * std::sin(3.0 * i + 5.0 * j) * Vector3(1, 0.5, 0.3);
+        const NurbsSurface rippled(exact.u_knots(), exact.v_knots(), poles, exact.weights());
+        const Face face = support::model_of({rippled}).faces[0];
+        const FaceUmbilics found = find_umbilics(face);
+        ASSERT_EQ(found.regions.size(), 1u);
+        EXPECT_TRUE(found.umbilics.empty());
+        ASSERT_TRUE(found.recognised);
+        EXPECT_FALSE(found.recognised->exact);
+        EXPECT_GT(found.regions[0].deviation, 0.01 * ripple);
+        EXPECT_LT(found.regions[0].deviation, 2 * ripple);
+
+        UmbilicOptions ripples;
+        ripples.recognition = 0.0;
+        const FaceUmbilics searched = find_umbilics(face, ripples);
+        EXPECT_FALSE(searched.recognised);
+        EXPECT_GT(searched.statistics.patches, 0);
+        EXPECT_LE(searched.statistics.boxes, 20000);
+        EXPECT_FALSE(searched.statistics.budget_exhausted);
+    }
 }
 
 TEST(FaceUmbilics, FacesOfAModelKeepTheirOrder) {

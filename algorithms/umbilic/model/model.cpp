@@ -26,6 +26,19 @@ bool Model::oriented() const {
     return !faces.empty() && std::all_of(faces.begin(), faces.end(), [](const Face& f) { return f.solid >= 0; });
 }
 
+bool elementary(SurfaceKind kind) {
+    switch (kind) {
+        case SurfaceKind::plane:
+        case SurfaceKind::sphere:
+        case SurfaceKind::cylinder:
+        case SurfaceKind::cone:
+        case SurfaceKind::torus:
+            return true;
+        default:
+            return false;
+    }
+}
+
 const char* name(SurfaceKind kind) {
     switch (kind) {
         case SurfaceKind::plane:

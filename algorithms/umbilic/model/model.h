@@ -16,6 +16,9 @@ namespace umbilic {
 /// What kind of surface a face had in its file.
 enum class SurfaceKind { plane, cylinder, cone, sphere, torus, bezier, bspline, revolution, extrusion, offset, other };
 
+/// True for planes, cylinders, cones, spheres and tori.
+bool elementary(SurfaceKind kind);
+
 /// Parameters of an elementary surface, in model coordinates (mm, radians).
 struct ElementarySurface {
     /// Point on a plane; centre of a sphere or torus; point on the axis of a cylinder; for a cone the point of the axis

@@ -294,6 +294,20 @@ const char* name(GenericType type) {
     return "non-generic";
 }
 
+const char* name(LineEnd end) {
+    switch (end) {
+        case LineEnd::closed:
+            return "closed";
+        case LineEnd::border:
+            return "border";
+        case LineEnd::knot:
+            return "knot";
+        case LineEnd::singular:
+            return "singular";
+    }
+    return "singular";
+}
+
 const char* name(UmbilicRegionKind kind) {
     switch (kind) {
         case UmbilicRegionKind::planar:

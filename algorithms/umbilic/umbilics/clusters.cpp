@@ -201,7 +201,7 @@ void sort_open_parts(const NurbsSurface& surface, const BezierPatches& patches, 
             // The undecided seam around the region is part of it within the resolution, but not of its area.
             UmbilicRegion region = make_region(surface, zero_boxes);
             for (const std::size_t k : heap)
-                if (!parts[k].zero) region.boxes.push_back(parts[k].box);
+                if (!parts[k].zero) region.border.push_back(parts[k].box);
             result.regions.push_back(std::move(region));
             continue;
         }
@@ -212,7 +212,10 @@ void sort_open_parts(const NurbsSurface& surface, const BezierPatches& patches, 
             BoundingBox box;
             for (const Vector3& point : points) box.add(point);
             if (box.diagonal() > point_like * options.resolution * size || boxes.size() == 1) {
-                result.lines.push_back({std::move(boxes), chained(std::move(points))});
+                UmbilicLine line;
+                line.boxes = std::move(boxes);
+                line.points = chained(std::move(points));
+                result.lines.push_back(std::move(line));
                 continue;
             }
         }

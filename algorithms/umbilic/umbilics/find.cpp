@@ -17,6 +17,7 @@
 #include <umbilic/umbilics/clusters.h>
 #include <umbilic/umbilics/duplicates.h>
 #include <umbilic/umbilics/certificate.h>
+#include <umbilic/umbilics/known_kinds.h>
 #include <umbilic/umbilics/patch_search.h>
 #include <umbilic/umbilics/poles.h>
 #include <umbilic/umbilics/winding.h>
@@ -76,38 +77,13 @@ std::vector<PatchUmbilics> search_patches(const NurbsSurface& surface, const Bez
     return result;
 }
 
-/// Answers for kinds of surface whose umbilics are known; false for all others.
-bool answer_elementary(const Face& face, FaceUmbilics& result) {
-    switch (face.kind) {
-        case SurfaceKind::plane:
-        case SurfaceKind::sphere: {
-            UmbilicRegion region = make_region(face.surface, {face.surface.domain()});
-            region.kind = face.kind == SurfaceKind::plane ? UmbilicRegionKind::planar : UmbilicRegionKind::spherical;
-            result.regions.push_back(std::move(region));
-            result.certificate.why = "not evaluated: there are umbilic regions";
-            break;
-        }
-        case SurfaceKind::cylinder:
-        case SurfaceKind::cone:
-        case SurfaceKind::torus:
-            // One principal curvature is everywhere the greater one (a torus of this kind has major > minor radius),
-            // and the directions are those of the parameters: no umbilics, no turning.
-            result.certificate.complete = true;
-            result.certificate.why = std::string("a ") + name(face.kind) + " has no umbilics";
-            break;
-        default:
-            return false;
-    }
-    result.searched = face.surface.domain();
-    return true;
-}
-
 void check(const UmbilicOptions& options) {
     if (!(options.resolution > 0.0 && options.resolution < 1.0))
         throw InvalidInput("umbilic search: the resolution must lie between 0 and 1");
     if (options.boxes_per_patch < 1) throw InvalidInput("umbilic search: boxes_per_patch must be at least 1");
     if (!(options.generic_margin >= 0.0)) throw InvalidInput("umbilic search: generic_margin must not be negative");
     if (!(options.accuracy >= 0.0)) throw InvalidInput("umbilic search: the accuracy must not be negative");
+    if (!(options.recognition >= 0.0)) throw InvalidInput("umbilic search: recognition must not be negative");
 }
 
 FaceUmbilics search_range(const NurbsSurface& surface, const PatchRange& range, const UmbilicOptions& options,
@@ -229,8 +205,11 @@ FaceUmbilics find_umbilics(const NurbsSurface& surface, const UmbilicOptions& op
 
 FaceUmbilics find_umbilics(const Face& face, const UmbilicOptions& options, const Progress& progress) {
     check(options);
+    std::optional<FaceUmbilics> known = known_umbilics(face, options);
     FaceUmbilics result;
-    if (!answer_elementary(face, result)) {
+    if (known) {
+        result = std::move(*known);
+    } else {
         UmbilicOptions on_face = options;
         on_face.accuracy += face.conversion_error;
         const PatchRange range =

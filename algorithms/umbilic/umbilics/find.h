@@ -24,6 +24,9 @@ struct UmbilicOptions {
     double accuracy = 0.0;
     /// Also prove completeness by the winding along the boundary.
     bool certificate = true;
+    /// A face that is within this of a plane or sphere, relative to the diagonal of its control points, is answered as
+    /// one umbilic region whose deviation is told; 0 asks for the umbilics of every ripple.
+    double recognition = 1e-6;
 };
 
 /// All umbilics of a NURBS surface on its whole domain, each isolated one with a proof of existence and uniqueness from
@@ -32,8 +35,8 @@ struct UmbilicOptions {
 FaceUmbilics find_umbilics(const NurbsSurface& surface, const UmbilicOptions& options = {},
                            const Progress& progress = {});
 
-/// All umbilics of a face: elementary kinds are answered without a search; `containment` is told from the trimming
-/// loops.
+/// All umbilics of a face: elementary kinds, and NURBS surfaces that are recognised as such (see
+/// UmbilicOptions::recognition), are answered without a search; `containment` is told from the trimming loops.
 FaceUmbilics find_umbilics(const Face& face, const UmbilicOptions& options = {}, const Progress& progress = {});
 
 /// All umbilics of all faces, in the model's order, faces in parallel.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <array>
 #include <complex>
 #include <optional>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include <umbilic/core/types.h>
 #include <umbilic/differential/monge_form.h>
+#include <umbilic/differential/recognise.h>
 #include <umbilic/nurbs/trimming.h>
 
 namespace umbilic {
@@ -104,19 +106,46 @@ struct UndecidedCluster {
     std::optional<double> index;  ///< index of whatever lies inside, from the winding around it
 };
 
+/// Why a line of umbilics ends where it does: it closes, meets the border of the surface, a knot line behind which it
+/// has no continuation, or a point at which the equations lose the rank that makes it a smooth line.
+enum class LineEnd { closed, border, knot, singular };
+
 /// A curve of umbilics.
 struct UmbilicLine {
-    std::vector<ParameterBox> boxes;
-    std::vector<Vector3> points;
+    std::vector<ParameterBox> boxes;  ///< what the search left open; the line lies in them
+    std::vector<Vector2> parameters;  ///< (u, v) of points in order along the line
+    std::vector<Vector3> points;      ///< the same in space; the last one is the first one if the line is closed
+    /// The points were traced: each one by Newton's method across the line, with the equations' Jacobian of rank 1.
+    /// Otherwise they are middles of boxes, good to the resolution.
+    bool traced = false;
+    bool closed = false;
+    std::array<LineEnd, 2> ends = {LineEnd::singular, LineEnd::singular};  ///< at the first and last point
+    double length = 0.0;                                                   ///< mm
+    /// Estimate of the distance of `parameters` from the true line, relative to the domain's sides: size of the last
+    /// Newton step and of rounding for a traced line, that of the boxes otherwise.
+    double accuracy = 0.0;
+    Containment containment = Containment::inside;  ///< boundary: it lies in the face's loops in part
 };
 
 enum class UmbilicRegionKind { planar, spherical, other };
 
-/// A part of a face on which every point is an umbilic.
+/// A closed polyline around a region, or around a hole in it; the last point equals the first.
+struct RegionBoundary {
+    std::vector<Vector2> parameters;  ///< (u, v)
+    std::vector<Vector3> points;
+};
+
+/// A part of a face on which every point is an umbilic. On a polynomial piece of a surface either all points are, or
+/// none but points and lines: regions are made of whole pieces, cut by the face's loops.
 struct UmbilicRegion {
     UmbilicRegionKind kind = UmbilicRegionKind::other;
-    std::vector<ParameterBox> boxes;
-    double area = 0.0;  ///< mm^2, of the boxes on the untrimmed surface
+    std::vector<ParameterBox> boxes;   ///< the pieces
+    std::vector<ParameterBox> border;  ///< boxes beside them that the search left open
+    double area = 0.0;                 ///< mm^2, of the pieces inside the face's loops
+    /// The plane or sphere; meaningless for other kinds.
+    ElementarySurface surface;
+    double deviation = 0.0;                ///< mm, largest distance of the region from `surface`
+    std::vector<RegionBoundary> boundary;  ///< of the part inside the face's loops; empty: all of a face of known kind
 };
 
 /// Completeness: on a domain, the indices of all umbilics sum to the winding of the principal direction field along its
@@ -138,6 +167,8 @@ struct UmbilicSearchStatistics {
 /// Everything umbilic on one face (its whole domain, with `containment` telling what lies inside its loops).
 struct FaceUmbilics {
     int face = 0;
+    /// What the face's NURBS surface was recognised as, where the answer rests on that.
+    std::optional<RecognisedSurface> recognised;
     std::vector<Umbilic> umbilics;  ///< ordered by u, then v
     std::vector<UndecidedCluster> undecided;
     std::vector<UmbilicLine> lines;
@@ -153,5 +184,6 @@ const char* name(UmbilicType type);
 const char* name(StarKind kind);
 const char* name(GenericType type);
 const char* name(UmbilicRegionKind kind);
+const char* name(LineEnd end);
 
 }  // namespace umbilic
