@@ -47,8 +47,17 @@ void check(const Face& face, const Vector2& start, const LineOfCurvatureOptions&
         throw InvalidInput(place(face, start) + ": the start is outside of the face's trimming loops");
 }
 
+void check(const LineTracer& tracer, const TracedLine& line) {
+    if (!line.stuck) return;
+    const Vector2 end = line.steps.empty() ? Vector2::Zero() : line.steps.back().end;
+    throw NumericFailure("face " + std::to_string(tracer.face().number) +
+                         ": a line of curvature cannot be continued at u = " + std::to_string(end.x()) +
+                         ", v = " + std::to_string(end.y()) + "; the surface is not smooth enough there");
+}
+
 /// Appends the points of a traced line, shifted by s0; its first one is left out if the curve has points already.
 void append(SurfaceCurve& curve, const LineTracer& tracer, const TracedLine& line, double s0, double spacing) {
+    check(tracer, line);
     const Face& face = tracer.face();
     const auto add = [&](double s, const Vector2& at) {
         const Vector2 p = tracer.wrapped(at);
@@ -112,18 +121,13 @@ SurfaceCurve line_of_curvature(const Face& face, const Vector2& start, Curvature
     return curve;
 }
 
-std::vector<Separatrix> separatrices(const Face& face, const Umbilic& umbilic, const LineOfCurvatureOptions& options,
-                                     const Progress& progress) {
+std::vector<SeparatrixStart> separatrix_starts(const Face& face, const Umbilic& umbilic, double radius) {
     const Vector2 centre(umbilic.at.u, umbilic.at.v);
-    check(face, centre, options);
     if (umbilic.kind.type == UmbilicType::non_generic || umbilic.directions.empty())
         throw InvalidInput(place(face, centre) + ": the umbilic is not generic, its directions are not known");
     const LineTracer tracer(face);
-    const TraceOptions trace = trace_options(tracer, options);
     const FieldValue at_centre = tracer.value(centre, CurvatureFamily::maximum);
-    const double radius = std::min(start_radius * tracer.size(), 0.5 * trace.length);
-
-    std::vector<Separatrix> result;
+    std::vector<SeparatrixStart> result;
     for (const Vector3& direction : umbilic.directions)
         for (const double sense : {1.0, -1.0}) {
             const Vector3 x = (sense * direction).normalized(), y = umbilic.normal.cross(x);
@@ -132,7 +136,7 @@ std::vector<Separatrix> separatrices(const Face& face, const Umbilic& umbilic, c
             };
             const Vector2 middle = at(0.0);
             if (!face.surface.domain().contains(middle.x(), middle.y())) continue;
-            // The family whose direction is radial.
+            // Sine of the angle from the radius to the direction of the family.
             const auto across = [&](double angle, CurvatureFamily family) {
                 const Vector2 p = at(angle);
                 const FieldValue value = tracer.value(p, family);
@@ -140,36 +144,49 @@ std::vector<Separatrix> separatrices(const Face& face, const Umbilic& umbilic, c
                 const Vector3 tangent = value.tangent.dot(radial) < 0.0 ? Vector3(-value.tangent) : value.tangent;
                 return value.normal.dot(radial.cross(tangent));
             };
-            Separatrix separatrix;
-            separatrix.direction = x;
-            separatrix.family =
+            SeparatrixStart start{.direction = x};
+            start.family =
                 std::abs(across(0.0, CurvatureFamily::maximum)) < std::abs(across(0.0, CurvatureFamily::minimum))
                     ? CurvatureFamily::maximum
                     : CurvatureFamily::minimum;
             double low = -start_window, high = start_window;
-            const double low_value = across(low, separatrix.family);
-            if (low_value * across(high, separatrix.family) < 0.0) {
+            const double low_value = across(low, start.family);
+            if (low_value * across(high, start.family) < 0.0)
                 for (int i = 0; i < start_halvings; ++i) {
                     const double angle = 0.5 * (low + high);
-                    (across(angle, separatrix.family) * low_value > 0.0 ? low : high) = angle;
+                    (across(angle, start.family) * low_value > 0.0 ? low : high) = angle;
                 }
-            }
-            const Vector2 first = at(0.5 * (low + high));
-            if (!face.region.whole_domain() && face.region.classify(first.x(), first.y()) == Containment::outside)
+            start.parameters = at(0.5 * (low + high));
+            if (!face.region.whole_domain() &&
+                face.region.classify(start.parameters.x(), start.parameters.y()) == Containment::outside)
                 continue;
-            const TracedLine line = tracer.trace(first, separatrix.family, x, trace, progress);
-            SurfaceCurve& curve = separatrix.curve;
-            curve.points.push_back({0.0, umbilic.at, umbilic.point});
-            const Vector3 first_point = face.surface.value(first.x(), first.y());
-            const double gap = (first_point - umbilic.point).norm();
-            curve.points.push_back({gap, {face.number, first.x(), first.y()}, first_point});
-            append(curve, tracer, line, gap, options.spacing);
-            curve.started = CurveEnd::umbilic;
-            curve.ended = line.ended;
-            curve.length = gap + line.length;
-            curve.error = line.error;
-            result.push_back(std::move(separatrix));
+            result.push_back(start);
         }
+    return result;
+}
+
+std::vector<Separatrix> separatrices(const Face& face, const Umbilic& umbilic, const LineOfCurvatureOptions& options,
+                                     const Progress& progress) {
+    check(face, {umbilic.at.u, umbilic.at.v}, options);
+    const LineTracer tracer(face);
+    const TraceOptions trace = trace_options(tracer, options);
+    const double radius = std::min(start_radius * tracer.size(), 0.5 * trace.length);
+    std::vector<Separatrix> result;
+    for (const SeparatrixStart& start : separatrix_starts(face, umbilic, radius)) {
+        const TracedLine line = tracer.trace(start.parameters, start.family, start.direction, trace, progress);
+        Separatrix separatrix{.family = start.family, .direction = start.direction};
+        SurfaceCurve& curve = separatrix.curve;
+        const Vector3 first = face.surface.value(start.parameters.x(), start.parameters.y());
+        const double gap = (first - umbilic.point).norm();
+        curve.points.push_back({0.0, umbilic.at, umbilic.point});
+        curve.points.push_back({gap, {face.number, start.parameters.x(), start.parameters.y()}, first});
+        append(curve, tracer, line, gap, options.spacing);
+        curve.started = CurveEnd::umbilic;
+        curve.ended = line.ended;
+        curve.length = gap + line.length;
+        curve.error = line.error;
+        result.push_back(std::move(separatrix));
+    }
     return result;
 }
 

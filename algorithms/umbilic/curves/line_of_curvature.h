@@ -38,6 +38,18 @@ struct LineOfCurvatureOptions {
 SurfaceCurve line_of_curvature(const Face& face, const Vector2& start, CurvatureFamily family,
                                const LineOfCurvatureOptions& options = {}, const Progress& progress = {});
 
+/// Where a line of curvature that runs into an umbilic crosses a small circle around it.
+struct SeparatrixStart {
+    CurvatureFamily family = CurvatureFamily::maximum;
+    Vector3 direction = Vector3::UnitX();  ///< unit tangent at the umbilic, away from it
+    Vector2 parameters = Vector2::Zero();
+};
+
+/// The starts of all separatrices of a generic umbilic that lie on the face: where the principal direction is radial
+/// on the circle of the given radius (mm). A line of curvature traced outwards from there nears the separatrix. Throws
+/// InvalidInput for a non-generic umbilic.
+std::vector<SeparatrixStart> separatrix_starts(const Face& face, const Umbilic& umbilic, double radius);
+
 /// A line of curvature that runs into an umbilic, traced from there.
 struct Separatrix {
     CurvatureFamily family = CurvatureFamily::maximum;

@@ -236,10 +236,7 @@ struct LineRun {
             step = h * std::min(factor, safety);
             if (step < shortest_step * tracer.size_) {
                 const double scale = tracer.field_.axis ? 1.0 : std::max(here.kappa, 1.0 / tracer.size_);
-                if (here.regular && here.spread > near_umbilic * scale)
-                    throw NumericFailure("face " + std::to_string(tracer.face_.number) +
-                                         ": a line cannot be continued at u = " + std::to_string(x.x()) +
-                                         ", v = " + std::to_string(x.y()) + "; the surface is not smooth enough there");
+                line.stuck = here.regular && here.spread > near_umbilic * scale;
                 line.ended = CurveEnd::umbilic;
                 return false;
             }
@@ -429,6 +426,7 @@ TracedLine LineTracer::trace(const Vector2& start, CurvatureFamily family, const
         if (!run.advance()) break;
         const bool within = run.leave_piece();
         if (run.crosses_loop() || run.closes() || !within) break;
+        if (options.stop && options.stop(run.x)) break;
         if (indeterminate(run.here)) {
             run.line.ended = CurveEnd::umbilic;
             break;

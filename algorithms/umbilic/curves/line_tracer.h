@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -48,6 +49,7 @@ struct TracedStep {
 struct TracedLine {
     std::vector<TracedStep> steps;
     CurveEnd ended = CurveEnd::length;
+    bool stuck = false;  ///< ended before an umbilic: the surface is not smooth enough there
     double length = 0.0;
     double error = 0.0;                      ///< sum of the estimated errors of the steps, mm
     Vector3 end_tangent = Vector3::UnitX();  ///< unit, at the end, in the direction of the run
@@ -58,11 +60,12 @@ struct TracedLine {
 };
 
 struct TraceOptions {
-    double length = 0.0;            ///< where to stop, mm
-    double tolerance = 0.0;         ///< error allowed in a step of the length of 1 / kappa or shorter, mm
-    double longest_step = 0.0;      ///< mm
-    bool close = true;              ///< stop where the line comes back to its start
-    double closing_distance = 0.0;  ///< mm: a line that passes its start within this distance is closed
+    double length = 0.0;                       ///< where to stop, mm
+    double tolerance = 0.0;                    ///< error allowed in a step of the length of 1 / kappa or shorter, mm
+    double longest_step = 0.0;                 ///< mm
+    bool close = true;                         ///< stop where the line comes back to its start
+    double closing_distance = 0.0;             ///< mm: a line that passes its start within this distance is closed
+    std::function<bool(const Vector2&)> stop;  ///< asked after each step with the parameters reached
 };
 
 /// Traces lines on one face (thesis 3.3). Within a polynomial piece of the surface the direction is a smooth function;
