@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <queue>
 #include <set>
@@ -24,6 +25,10 @@ namespace {
 
 /// Nodes of the net nearer to the border than this share of the step are left out.
 constexpr double least_border_distance = 0.447;
+/// And those nearer than this to each other.
+constexpr double least_node_distance = 0.337;
+/// A part of a line that is longer than this times its chord is no side of a cell.
+constexpr double greatest_bend = 1.2;
 /// New nodes come no nearer to the border than this.
 constexpr double least_new_distance = 0.317;
 /// A triangle whose circle is too large gets a node in the middle of its longest edge if its circle's centre is not on
@@ -227,12 +232,24 @@ int FaceCompletion::add_vertex(const FaceTriangulation::Place& place, const Vect
 
 void FaceCompletion::add_net() {
     net_vertex_.assign(net_.nodes.size(), -1);
-    for (std::size_t i = 0; i < net_.nodes.size(); ++i) {
+    // Near umbilics lines cross in a small space: the crossing that is nearer to the start stays.
+    std::vector<int> order(net_.nodes.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](int a, int b) { return net_.nodes[a].distance < net_.nodes[b].distance; });
+    PointGrid<int> kept(options_.step);
+    for (const int i : order) {
         const NetNode& node = net_.nodes[i];
         if (border_distance(node.point) < least_border_distance * options_.step) continue;
+        bool crowded = false;
+        kept.near(node.point, [&](int other) {
+            crowded = crowded || (net_.nodes[other].point - node.point).norm() < least_node_distance * options_.step;
+        });
+        if (crowded) continue;
         const FaceTriangulation::Place place = mesh_.locate(to_grid(node.parameters), -1, true);
         if (place.outside) continue;
         net_vertex_[i] = add_vertex(place, node.parameters, node.point);
+        if (net_vertex_[i] >= 0) kept.add(node.point, i);
     }
 }
 
@@ -392,7 +409,8 @@ FaceWireframe FaceCompletion::assemble() const {
     std::map<std::pair<int, int>, const NetEdge*> net_edges;
     for (const NetEdge& edge : net_.edges) {
         const int a = net_vertex_[edge.from], b = net_vertex_[edge.to];
-        if (a >= 0 && b >= 0 && a != b) net_edges[key(a, b)] = &edge;
+        if (a >= 0 && b >= 0 && a != b && edge.length <= greatest_bend * (points[a] - points[b]).norm())
+            net_edges[key(a, b)] = &edge;
     }
     std::map<std::pair<int, int>, std::pair<const BorderNode*, int>> border_edges;
     for (const std::vector<BorderNode>& loop : border_.loops)
@@ -436,10 +454,9 @@ FaceWireframe FaceCompletion::assemble() const {
     }
     for (const auto& [a, b] : edges) {
         WireEdge edge{.from = node_of[a], .to = node_of[b]};
-        if (const NetEdge* line = net_edge(a, b)) {
-            edge.kind = field_.axis                                ? WireKind::geodesic
-                        : line->family == CurvatureFamily::maximum ? WireKind::maximum
-                                                                   : WireKind::minimum;
+        // Lines along an axis are no geodesics; they only brought the nodes.
+        if (const NetEdge* line = field_.axis ? nullptr : net_edge(a, b)) {
+            edge.kind = line->family == CurvatureFamily::maximum ? WireKind::maximum : WireKind::minimum;
             edge.length = line->length;
             edge.between = line->between;
             if (net_vertex_[line->from] != a) std::reverse(edge.between.begin(), edge.between.end());
@@ -469,16 +486,13 @@ void FaceCompletion::measure(FaceWireframe& wireframe, const std::vector<int>& n
     std::map<std::pair<int, int>, int> edge_of;
     for (std::size_t i = 0; i < wireframe.edges.size(); ++i)
         edge_of[{wireframe.edges[i].from, wireframe.edges[i].to}] = static_cast<int>(i);
+    PointGrid<Vector3> nodes(options_.step);
+    for (const WireNode& node : wireframe.nodes) nodes.add(node.curvature.point, node.curvature.point);
     double area = 0.0, covered = 0.0;
     for (int t = 0; t < mesh_.triangle_count(); ++t) {
         if (!mesh_.alive(t)) continue;
-        std::array<FaceTriangulation::Slot, 3> s;
-        std::vector<int> around;
-        for (int k = 0; k < 3; ++k) {
-            s[k] = mesh_.slot(3 * t + k);
-            around.push_back(s[k].vertex);
-            if (s[k].twin >= 0) around.push_back(mesh_.slot(s[k].twin).vertex);
-        }
+        const std::array<FaceTriangulation::Slot, 3> s = {mesh_.slot(3 * t), mesh_.slot(3 * t + 1),
+                                                          mesh_.slot(3 * t + 2)};
         const std::vector<Vector3>& points = mesh_.points();
         const Vector3 &a = points[s[0].vertex], &b = points[s[1].vertex], &c = points[s[2].vertex];
         const double weight = 0.5 * (b - a).cross(c - a).norm() / cell_samples.size();
@@ -491,7 +505,11 @@ void FaceCompletion::measure(FaceWireframe& wireframe, const std::vector<int>& n
             const Vector2 at = wrapped(from_grid(x, y));
             const Vector3 p = face_.surface.value(at.x(), at.y());
             double distance = std::numeric_limits<double>::infinity();
-            for (const int v : around) distance = std::min(distance, (points[v] - p).norm());
+            for (const FaceTriangulation::Slot& corner : s)
+                distance = std::min(distance, (points[corner.vertex] - p).norm());
+            // In thin triangles another node may be nearer.
+            if (distance > options_.step)
+                nodes.near(p, [&](const Vector3& node) { distance = std::min(distance, (node - p).norm()); });
             area += weight;
             if (distance <= options_.step) covered += weight;
             wireframe.farthest = std::max(wireframe.farthest, distance);

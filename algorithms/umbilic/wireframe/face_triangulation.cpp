@@ -452,10 +452,15 @@ bool FaceTriangulation::remove(int vertex) {
         for (const int s : slots) {
             const int edge = next(s);  // between the vertex and the previous corner
             const int twin = slots_[edge].twin;
-            if (twin < 0 || slots_[edge].fixed || twin / 3 == edge / 3 || !convex(edge)) continue;
-            const int a = slots_[edge].vertex, d = slots_[twin].vertex;
-            const int far =
-                slots_[next(edge)].vertex == vertex ? slots_[previous(edge)].vertex : slots_[next(edge)].vertex;
+            if (twin < 0 || slots_[edge].fixed || twin / 3 == edge / 3) continue;
+            // The triangle (a, far, d) stays behind; the other one, with the vertex, may be flat: it will go.
+            const Slot &a_slot = slots_[edge], &far_slot = slots_[next(edge)], &own = slots_[previous(edge)];
+            const GridPoint d_corner = opposite(edge);
+            if (orientation(a_slot.corner, far_slot.corner, d_corner) <= 0 ||
+                orientation(a_slot.corner, d_corner, own.corner) < 0)
+                continue;
+            const int a = a_slot.vertex, d = slots_[twin].vertex, far = far_slot.vertex;
+            if (own.vertex != vertex) continue;
             if (a == d || far == a || far == d || far == vertex || a == vertex || d == vertex) continue;
             const double least = least_angle(a, d, far);
             if (least > widest) {

@@ -339,7 +339,9 @@ bool NetBuilder::add_lines(const std::vector<Seed>& seeds) {
         added = true;
         // A line that does not cross the one it should is of no use there again.
         if (const Seed& seed = *origins[i]; seed.line >= 0) lines_[seed.line].refused.push_back(seed.s);
-        if (origins[i]->one_way) lines_.back().crossings.emplace(0.0, 0);
+        // A half-line from an umbilic begins a little beside it.
+        if (origins[i]->one_way)
+            lines_.back().crossings.emplace(-(line.samples.front().point - net_.nodes.front().point).norm(), 0);
     }
     return added;
 }
@@ -376,7 +378,11 @@ void NetBuilder::add_crossing(int a, double sa, int b, double sb) {
     if (lines_[b].closed && sb > lines_[b].high - 0.01 * step_ && known(lines_[b], sb - lines_[b].high)) return;
     const Vector2 p = tracer_.wrapped(lines_[a].at(sa));
     const int node = static_cast<int>(net_.nodes.size());
-    net_.nodes.push_back({p, tracer_.face().surface.value(p.x(), p.y())});
+    const auto distance = [](const Line& line, double s) {
+        return line.distance + (line.closed ? std::min(std::abs(s), std::abs(line.high - s)) : std::abs(s));
+    };
+    net_.nodes.push_back(
+        {p, tracer_.face().surface.value(p.x(), p.y()), std::min(distance(lines_[a], sa), distance(lines_[b], sb))});
     lines_[a].crossings.emplace(sa, node);
     lines_[b].crossings.emplace(sb, node);
 }
@@ -452,7 +458,7 @@ LineNet NetBuilder::build(const NetStart& start) {
             seeds.push_back({0.0, start.parameters, family, std::nullopt, -1, 0.0});
     } else {
         net_.nodes.push_back(
-            {start.parameters, tracer_.face().surface.value(start.parameters.x(), start.parameters.y())});
+            {start.parameters, tracer_.face().surface.value(start.parameters.x(), start.parameters.y()), 0.0});
         for (const NetStart::Spoke& spoke : start.spokes)
             seeds.push_back({0.0, spoke.parameters, spoke.family, spoke.direction, -1, 0.0});
     }

@@ -26,7 +26,7 @@ struct NetStart {
 struct NetNode {
     Vector2 parameters = Vector2::Zero();
     Vector3 point = Vector3::Zero();
-    bool kept = true;
+    double distance = 0.0;  ///< from the start along lines, mm
 };
 
 /// Part of a line between two neighbouring crossings.
