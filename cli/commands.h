@@ -15,6 +15,7 @@ using Command = std::function<int()>;
 // Each adds its subcommand to the application and sets `command` when its words are found. The session outlives both.
 void add_info(CLI::App& application, Session& session, Command& command);
 void add_umbilics(CLI::App& application, Session& session, Command& command);
+void add_wireframe(CLI::App& application, Session& session, Command& command);
 void add_match(CLI::App& application, Session& session, Command& command);
 void add_compare(CLI::App& application, Session& session, Command& command);
 

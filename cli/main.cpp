@@ -55,6 +55,7 @@ int run(int argc, char** argv) {
     add_compare(application, session, command);
     add_match(application, session, command);
     add_umbilics(application, session, command);
+    add_wireframe(application, session, command);
     add_info(application, session, command);
     try {
         application.parse(argc, argv);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <system_error>
 
@@ -49,6 +50,27 @@ void check(const ReadOptions& options) {
     if (!(options.display_deflection > 0.0)) throw InvalidInput("display deflection: must be positive");
 }
 
+/// Hands what `write` writes to the child process, which makes a STEP file of it; the file appears whole or not at all.
+void write_step(const std::string& step_path, const char* command, const ReadOptions& options,
+                const std::function<void(std::ostream&)>& write) {
+    check(options);
+    const fs::path target(step_path);
+    const auto part = [&](const char* ending) {
+        return target.parent_path() / fmt::format(".{}.{}.{}", target.filename().string(), ::getpid(), ending);
+    };
+    const Unfinished source(part("source")), beside(part("part"));
+    {
+        std::ofstream out(source.path(), std::ios::binary);
+        write(out);
+        if (!out.flush()) throw InvalidInput(step_path + ": cannot be written; choose another place");
+    }
+    run_reader(step_path, {command, source.path().string(), beside.path().string()}, {options.seconds, options.memory},
+               {});
+    std::error_code error;
+    fs::rename(beside.path(), target, error);
+    if (error) throw InvalidInput(step_path + ": cannot be written (" + error.message() + "); choose another place");
+}
+
 }  // namespace
 
 ReadResult read_file(const std::string& path, const ReadOptions& options, const Progress& progress) {
@@ -80,22 +102,18 @@ void write_transformed_step(const std::string& path, const SimilarityTransform& 
 }
 
 void write_surfaces_step(const Model& model, const std::string& step_path, const ReadOptions& options) {
-    check(options);
-    const fs::path target(step_path);
-    const auto part = [&](const char* ending) {
-        return target.parent_path() / fmt::format(".{}.{}.{}", target.filename().string(), ::getpid(), ending);
-    };
-    const Unfinished source(part("model")), beside(part("part"));
-    {
-        std::ofstream out(source.path(), std::ios::binary);
-        write_model(model, out);
-        if (!out.flush()) throw InvalidInput(step_path + ": cannot be written; choose another place");
-    }
-    run_reader(step_path, {"write", source.path().string(), beside.path().string()}, {options.seconds, options.memory},
-               {});
-    std::error_code error;
-    fs::rename(beside.path(), target, error);
-    if (error) throw InvalidInput(step_path + ": cannot be written (" + error.message() + "); choose another place");
+    write_step(step_path, "write", options, [&](std::ostream& out) { write_model(model, out); });
+}
+
+void write_curves_step(const std::vector<std::vector<Vector3>>& curves, const std::string& step_path,
+                       const ReadOptions& options) {
+    write_step(step_path, "curves", options, [&](std::ostream& out) {
+        for (const std::vector<Vector3>& curve : curves) {
+            const auto count = static_cast<double>(curve.size());
+            out.write(reinterpret_cast<const char*>(&count), sizeof count);
+            for (const Vector3& p : curve) out.write(reinterpret_cast<const char*>(p.data()), 3 * sizeof(double));
+        }
+    });
 }
 
 std::string opencascade_version() {

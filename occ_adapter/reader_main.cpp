@@ -2,6 +2,7 @@
 // The program that touches CAD files, so that a file can end no other one: see reader_process.h for its frames.
 // umbilic_reader MEMORY read PATH DEFLECTION | MEMORY transform PATH OUT 12 numbers (rows of a 3 x 4 matrix)
 //                | MEMORY write PATH OUT (a model in Umbilic's own form to STEP)
+//                | MEMORY curves PATH OUT (points of curves, as doubles behind their counts, to STEP)
 #include <bit>
 #include <charconv>
 #include <csignal>
@@ -33,6 +34,7 @@
 #include <umbilic/core/errors.h>
 #include <umbilic/model/serialization.h>
 
+#include "curves_to_shape.h"
 #include "file_format.h"
 #include "model_to_shape.h"
 #include "reader_process.h"
@@ -179,6 +181,18 @@ void write(const std::string& path, const std::string& step_path) {
     write_step(shape_of(read_model(in)), step_path);
 }
 
+void write_curves(const std::string& path, const std::string& step_path) {
+    std::ifstream in(path, std::ios::binary);
+    std::vector<std::vector<Vector3>> curves;
+    for (double count = 0.0; in.read(reinterpret_cast<char*>(&count), sizeof count);) {
+        std::vector<Vector3> curve(static_cast<std::size_t>(count));
+        for (Vector3& p : curve) in.read(reinterpret_cast<char*>(p.data()), 3 * sizeof(double));
+        if (!in) throw InvalidInput("the points of a curve are cut off");
+        curves.push_back(std::move(curve));
+    }
+    write_step(shape_of(curves), step_path);
+}
+
 std::string run(const std::vector<std::string>& words) {
     if (words.size() == 4 && words[1] == "read") return read(words[2], number(words[3]));
     if (words.size() == 16 && words[1] == "transform") {
@@ -189,6 +203,10 @@ std::string run(const std::vector<std::string>& words) {
     }
     if (words.size() == 4 && words[1] == "write") {
         write(words[2], words[3]);
+        return "";
+    }
+    if (words.size() == 4 && words[1] == "curves") {
+        write_curves(words[2], words[3]);
         return "";
     }
     throw InvalidInput("umbilic_reader is started by Umbilic only");

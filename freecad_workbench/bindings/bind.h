@@ -9,6 +9,7 @@ namespace umbilic::python {
 void bind_errors(pybind11::module_& module);
 void bind_model(pybind11::module_& module);
 void bind_umbilics(pybind11::module_& module);
+void bind_wireframe(pybind11::module_& module);
 void bind_comparison(pybind11::module_& module);
 
 }  // namespace umbilic::python

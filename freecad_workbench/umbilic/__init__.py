@@ -23,6 +23,7 @@ from ._native import Cancelled, Error, InvalidInput, NumericFailure, Unsupported
 from .comparisons import Alignment, Answer, Comparison, Match, Mesh, Overlay, Verdict, compare, match, report
 from .models import Model, ShapeData, info, read
 from .umbilical_points import UmbilicMarks, Umbilics, umbilics
+from .wireframes import Wireframe, wireframe
 
 __all__ = [
     "Alignment",
@@ -41,10 +42,12 @@ __all__ = [
     "Umbilics",
     "Unsupported",
     "Verdict",
+    "Wireframe",
     "compare",
     "info",
     "match",
     "read",
     "report",
     "umbilics",
+    "wireframe",
 ]
