@@ -6,6 +6,6 @@ PYBIND11_MODULE(_native, module) {
     umbilic::python::bind_errors(module);
     umbilic::python::bind_model(module);
     umbilic::python::bind_umbilics(module);
-    bind_wireframe(module);
+    umbilic::python::bind_wireframe(module);
     umbilic::python::bind_comparison(module);
 }
