@@ -30,13 +30,13 @@ TEST(UmbilicEquations, CollapsedEdgesAreSeen) {
     const NurbsSurface octant = support::ellipsoid_octant(3, 2, 1);
     UmbilicEquations equations;
     equations.form_fundamental(bezier_patches(octant).patches[0], input_rounding(octant));
-    EXPECT_TRUE(equations.collapsed(PatchEdge::v_high));
-    EXPECT_FALSE(equations.collapsed(PatchEdge::v_low));
-    EXPECT_FALSE(equations.collapsed(PatchEdge::u_low));
-    EXPECT_FALSE(equations.collapsed(PatchEdge::u_high));
+    EXPECT_TRUE(equations.singular(PatchEdge::v_high));
+    EXPECT_FALSE(equations.singular(PatchEdge::v_low));
+    EXPECT_FALSE(equations.singular(PatchEdge::u_low));
+    EXPECT_FALSE(equations.singular(PatchEdge::u_high));
     equations.form_umbilic();
     const int before = equations.a().v_degree;
-    equations.divide_by_collapsed_edges();
+    equations.divide_by_singular_edges();
     EXPECT_LT(equations.a().v_degree, before);
     // The pole of a triaxial ellipsoid is no umbilic: the divided forms do not vanish together on the edge.
     EXPECT_GT(std::max(edge_magnitude(equations.a(), PatchEdge::v_high), edge_magnitude(equations.b(), PatchEdge::v_high)), 1e-3);

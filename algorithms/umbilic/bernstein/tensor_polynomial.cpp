@@ -18,33 +18,75 @@ inline void add_multiple(double* result, const double* row, double factor, int l
     for (int j = 0; j < length; ++j) result[j] += factor * row[j];
 }
 
-void add_product(const TensorPolynomial& short_rows, const TensorPolynomial& long_rows, double sign,
-                 TensorPolynomial& result) {
-    const int stride = result.row_length();
-    const int length = long_rows.row_length();
-    const double* a = short_rows.scaled.data();
+/// Row-major coefficients with their degrees.
+struct Rows {
+    int u_degree, row_length;
+    const double* data;
+};
+
+void add_product(Rows a, Rows b, double sign, double* result) {
+    const int stride = a.row_length + b.row_length - 1;
+    const Rows &short_rows = a.row_length < b.row_length ? a : b, &long_rows = a.row_length < b.row_length ? b : a;
+    const double* next = short_rows.data;
     for (int i = 0; i <= short_rows.u_degree; ++i)
-        for (int j = 0; j < short_rows.row_length(); ++j) {
-            const double factor = sign * *a++;
+        for (int j = 0; j < short_rows.row_length; ++j) {
+            const double factor = sign * *next++;
             if (factor == 0.0) continue;
-            double* target = result.scaled.data() + i * stride + j;
+            double* target = result + i * stride + j;
             for (int k = 0; k <= long_rows.u_degree; ++k)
-                add_multiple(target + k * stride, long_rows.scaled.data() + k * length, factor, length);
+                add_multiple(target + k * stride, long_rows.data + k * long_rows.row_length, factor,
+                             long_rows.row_length);
         }
 }
 
-/// The univariate restriction to an edge: Bernstein coefficients of the other variable, increasing.
-std::vector<double> edge_coefficients(const TensorPolynomial& polynomial, PatchEdge edge) {
-    const bool across_u = edge == PatchEdge::u_low || edge == PatchEdge::u_high;
-    const int degree = across_u ? polynomial.v_degree : polynomial.u_degree;
-    const double* inverse = inverse_binomials(degree);
-    std::vector<double> result(degree + 1);
-    for (int k = 0; k <= degree; ++k) {
-        const int i = across_u ? (edge == PatchEdge::u_low ? 0 : polynomial.u_degree) : k;
-        const int j = across_u ? k : (edge == PatchEdge::v_low ? 0 : polynomial.v_degree);
-        result[k] = polynomial.scaled[i * polynomial.row_length() + j] * inverse[k];
-    }
+Rows rows(const TensorPolynomial& polynomial, const std::vector<double>& data) {
+    return {polynomial.u_degree, polynomial.row_length(), data.data()};
+}
+
+/// own |c| + error of c, for every coefficient c.
+std::vector<double> error_factor(const TensorPolynomial& polynomial, double own) {
+    std::vector<double> result(polynomial.scaled.size());
+    for (std::size_t at = 0; at < result.size(); ++at)
+        result[at] = own * std::abs(polynomial.scaled[at]) + (polynomial.errors.empty() ? 0.0 : polynomial.errors[at]);
     return result;
+}
+
+/// errors of a b: |a| (e_b + gamma |b|) + e_a (|b| + e_b).
+void add_product_errors(const TensorPolynomial& a, const TensorPolynomial& b, double gamma, TensorPolynomial& result) {
+    std::vector<double> magnitudes(a.scaled.size());
+    for (std::size_t at = 0; at < magnitudes.size(); ++at) magnitudes[at] = std::abs(a.scaled[at]);
+    add_product(rows(a, magnitudes), rows(b, error_factor(b, gamma)), 1.0, result.errors.data());
+    if (!a.errors.empty()) add_product(rows(a, a.errors), rows(b, error_factor(b, 1.0)), 1.0, result.errors.data());
+}
+
+/// Multiplies by (u + (1 - u))^u_raise (v + (1 - v))^v_raise, whose scaled coefficients are 1, 1.
+void raise(std::vector<double>& c, int u_degree, int old_length, int u_raise, int v_raise) {
+    for (int step = 0; step < u_raise; ++step) {
+        c.resize(c.size() + old_length, 0.0);
+        for (std::size_t at = c.size() - 1; at >= static_cast<std::size_t>(old_length); --at)
+            c[at] += c[at - old_length];
+    }
+    if (v_raise == 0) return;
+    const int length = old_length + v_raise;
+    c.resize(static_cast<std::size_t>(u_degree + u_raise + 1) * length);
+    for (int i = u_degree + u_raise; i >= 0; --i) {
+        double* row = c.data() + i * length;
+        std::copy_backward(c.data() + i * old_length, c.data() + (i + 1) * old_length, row + old_length);
+        std::fill(row + old_length, row + length, 0.0);
+        for (int step = 1; step <= v_raise; ++step)
+            for (int j = old_length - 1 + step; j > 0; --j) row[j] += row[j - 1];
+    }
+}
+
+/// Drops the row or column on an edge.
+void drop_edge(std::vector<double>& c, int u_degree, int length, PatchEdge edge) {
+    if (edge == PatchEdge::u_low) c.erase(c.begin(), c.begin() + length);
+    if (edge == PatchEdge::u_high) c.resize(c.size() - length);
+    if (edge == PatchEdge::u_low || edge == PatchEdge::u_high) return;
+    const int first = edge == PatchEdge::v_low ? 1 : 0;
+    for (int i = 0; i <= u_degree; ++i)
+        for (int j = 0; j < length - 1; ++j) c[i * (length - 1) + j] = c[i * length + first + j];
+    c.resize(static_cast<std::size_t>(u_degree + 1) * (length - 1));
 }
 
 int term_count(const TensorPolynomial& a, const TensorPolynomial& b) {
@@ -60,6 +102,7 @@ void TensorPolynomial::set_zero(int m, int n) {
     scaled.assign(static_cast<std::size_t>(m + 1) * (n + 1), 0.0);
     magnitude = 0.0;
     bound = {};
+    errors.clear();
 }
 
 void TensorPolynomial::measure() {
@@ -104,19 +147,31 @@ CoefficientBound TensorPolynomial::bernstein_coefficients(std::span<double> resu
     return {(bound.rounding + conversion) * bound_slack, (bound.input + conversion) * bound_slack};
 }
 
+void TensorPolynomial::bernstein_errors(std::span<double> result) const {
+    assert(result.size() == scaled.size() && errors.size() == scaled.size());
+    const double* bu = inverse_binomials(u_degree);
+    const double* bv = inverse_binomials(v_degree);
+    const double relative = gamma_bound(u_degree + v_degree + 4);
+    for (int i = 0; i <= u_degree; ++i)
+        for (int j = 0; j <= v_degree; ++j) {
+            const int at = i * row_length() + j;
+            result[at] =
+                (errors[at] + relative * std::abs(scaled[at])) * (bu[i] * bv[j]) * (1 + relative) * bound_slack;
+        }
+}
+
 void sum_of_products(std::span<const ProductTerm> terms, TensorPolynomial& result) {
     assert(!terms.empty());
     result.set_zero(terms[0].left->u_degree + terms[0].right->u_degree,
                     terms[0].left->v_degree + terms[0].right->v_degree);
     int count = 0;
+    bool with_errors = false;
     double sizes = 0.0, rounding = 0.0, input = 0.0;
     for (const auto& [left, right, sign] : terms) {
         assert(left->u_degree + right->u_degree == result.u_degree);
         assert(left->v_degree + right->v_degree == result.v_degree);
-        if (left->row_length() < right->row_length())
-            add_product(*left, *right, sign, result);
-        else
-            add_product(*right, *left, sign, result);
+        add_product(rows(*left, left->scaled), rows(*right, right->scaled), sign, result.scaled.data());
+        with_errors = with_errors || !left->errors.empty() || !right->errors.empty();
         count += term_count(*left, *right);
         const double a = left->magnitude, b = right->magnitude;
         sizes += a * b;
@@ -126,31 +181,24 @@ void sum_of_products(std::span<const ProductTerm> terms, TensorPolynomial& resul
     const double arithmetic = gamma_bound(count) * sizes;
     result.bound = {(rounding + arithmetic) * bound_slack, (input + arithmetic) * bound_slack};
     result.measure();
+    if (!with_errors) return;
+    result.errors.assign(result.scaled.size(), 0.0);
+    for (const auto& [left, right, sign] : terms) add_product_errors(*left, *right, gamma_bound(count), result);
+    for (double& error : result.errors) error *= bound_slack;
 }
 
 void elevate(TensorPolynomial& polynomial, int u_raise, int v_raise) {
     assert(u_raise >= 0 && v_raise >= 0);
-    // Multiplication by u + (1 - u), whose scaled coefficients are 1, 1.
-    for (int step = 0; step < u_raise; ++step) {
-        const int length = polynomial.row_length();
-        polynomial.scaled.resize(polynomial.scaled.size() + length, 0.0);
-        for (std::size_t at = polynomial.scaled.size() - 1; at >= static_cast<std::size_t>(length); --at)
-            polynomial.scaled[at] += polynomial.scaled[at - length];
-        ++polynomial.u_degree;
+    const int u_degree = polynomial.u_degree, length = polynomial.row_length();
+    if (!polynomial.errors.empty()) {
+        for (std::size_t at = 0; at < polynomial.errors.size(); ++at)
+            polynomial.errors[at] += gamma_bound(u_raise + v_raise) * std::abs(polynomial.scaled[at]);
+        raise(polynomial.errors, u_degree, length, u_raise, v_raise);
+        for (double& error : polynomial.errors) error *= bound_slack;
     }
-    if (v_raise > 0) {
-        const int old_length = polynomial.row_length(), length = old_length + v_raise;
-        polynomial.scaled.resize(static_cast<std::size_t>(polynomial.u_degree + 1) * length);
-        for (int i = polynomial.u_degree; i >= 0; --i) {
-            double* row = polynomial.scaled.data() + i * length;
-            std::copy_backward(polynomial.scaled.data() + i * old_length,
-                               polynomial.scaled.data() + (i + 1) * old_length, row + old_length);
-            std::fill(row + old_length, row + length, 0.0);
-            for (int step = 1; step <= v_raise; ++step)
-                for (int j = old_length - 1 + step; j > 0; --j) row[j] += row[j - 1];
-        }
-        polynomial.v_degree += v_raise;
-    }
+    raise(polynomial.scaled, u_degree, length, u_raise, v_raise);
+    polynomial.u_degree += u_raise;
+    polynomial.v_degree += v_raise;
     const double arithmetic = gamma_bound(u_raise + v_raise) * polynomial.magnitude;
     polynomial.bound.rounding = (polynomial.bound.rounding + arithmetic) * bound_slack;
     polynomial.bound.input = (polynomial.bound.input + arithmetic) * bound_slack;
@@ -166,6 +214,7 @@ void add(const TensorPolynomial& left, const TensorPolynomial& right, TensorPoly
     };
     result.u_degree = left.u_degree;
     result.v_degree = left.v_degree;
+    result.errors.clear();
     result.scaled.resize(left.scaled.size());
     for (std::size_t at = 0; at < result.scaled.size(); ++at) result.scaled[at] = left.scaled[at] + right.scaled[at];
     result.bound = bound;
@@ -205,15 +254,8 @@ void divide_by_edge(TensorPolynomial& polynomial, PatchEdge edge) {
     const int degree = across_u ? polynomial.u_degree : polynomial.v_degree;
     assert(degree > 0);
     const int length = polynomial.row_length();
-    std::vector<double>& c = polynomial.scaled;
-    if (edge == PatchEdge::u_low) c.erase(c.begin(), c.begin() + length);
-    if (edge == PatchEdge::u_high) c.resize(c.size() - length);
-    if (!across_u) {
-        const int first = edge == PatchEdge::v_low ? 1 : 0;
-        for (int i = 0; i <= polynomial.u_degree; ++i)
-            for (int j = 0; j < length - 1; ++j) c[i * (length - 1) + j] = c[i * length + first + j];
-        c.resize(static_cast<std::size_t>(polynomial.u_degree + 1) * (length - 1));
-    }
+    drop_edge(polynomial.scaled, polynomial.u_degree, length, edge);
+    if (!polynomial.errors.empty()) drop_edge(polynomial.errors, polynomial.u_degree, length, edge);
     // b_k binomial(N, k) / binomial(N - 1, k) = b_k N / (N - k), at most N b_k.
     (across_u ? polynomial.u_degree : polynomial.v_degree) -= 1;
     polynomial.bound.rounding *= degree * bound_slack;
@@ -222,8 +264,15 @@ void divide_by_edge(TensorPolynomial& polynomial, PatchEdge edge) {
 }
 
 double edge_magnitude(const TensorPolynomial& polynomial, PatchEdge edge) {
+    const bool across_u = edge == PatchEdge::u_low || edge == PatchEdge::u_high;
+    const int degree = across_u ? polynomial.v_degree : polynomial.u_degree;
+    const double* inverse = inverse_binomials(degree);
     double result = 0.0;
-    for (const double value : edge_coefficients(polynomial, edge)) result = std::max(result, std::abs(value));
+    for (int k = 0; k <= degree; ++k) {
+        const int i = across_u ? (edge == PatchEdge::u_low ? 0 : polynomial.u_degree) : k;
+        const int j = across_u ? k : (edge == PatchEdge::v_low ? 0 : polynomial.v_degree);
+        result = std::max(result, std::abs(polynomial.scaled[i * polynomial.row_length() + j]) * inverse[k]);
+    }
     return result;
 }
 

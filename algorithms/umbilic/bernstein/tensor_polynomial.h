@@ -25,6 +25,10 @@ struct TensorPolynomial {
     std::vector<double> scaled;
     double magnitude = 0.0;  ///< at least max |b_ij| of the stored coefficients
     CoefficientBound bound;
+    /// Bounds on the error of each entry of `scaled`, the input numbers taken as rounded; empty unless asked for by
+    /// giving them to the factors. They follow the variation over the array that `bound` loses, at three times the
+    /// cost.
+    std::vector<double> errors;
 
     int row_length() const { return v_degree + 1; }
     /// Zero polynomial of the given degrees.
@@ -37,6 +41,8 @@ struct TensorPolynomial {
     /// The coefficients b_ij, row-major; `result` has (u_degree + 1) * (v_degree + 1) entries. Their distance from the
     /// exact ones is within what is returned.
     CoefficientBound bernstein_coefficients(std::span<double> result) const;
+    /// Bounds on the error of each of those coefficients. Needs `errors`.
+    void bernstein_errors(std::span<double> result) const;
 };
 
 /// sign * left * right, with sign +1 or -1.
@@ -46,16 +52,17 @@ struct ProductTerm {
     double sign = 1.0;
 };
 
-/// Sum of products that all have the same bidegree. `result` must not be one of the factors.
+/// Sum of products that all have the same bidegree, with `errors` if a factor has them (those of the others are then
+/// 0). `result` must not be one of the factors.
 void sum_of_products(std::span<const ProductTerm> terms, TensorPolynomial& result);
 
 /// The same polynomial with its degrees raised.
 void elevate(TensorPolynomial& polynomial, int u_raise, int v_raise);
 
-/// left + right, of the same bidegree.
+/// left + right, of the same bidegree; without `errors`.
 void add(const TensorPolynomial& left, const TensorPolynomial& right, TensorPolynomial& result);
 
-/// Partial derivatives with respect to u or v; that of degree 0 is the zero polynomial of degree 0.
+/// Partial derivatives with respect to u or v; that of degree 0 is the zero polynomial of degree 0. Without `errors`.
 void derivative_u(const TensorPolynomial& polynomial, TensorPolynomial& result);
 void derivative_v(const TensorPolynomial& polynomial, TensorPolynomial& result);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <umbilic/nurbs/bezier_patch.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace umbilic {
@@ -56,15 +57,49 @@ BezierPatch extract(const NurbsSurface& surface, const Span& u, const Span& v) {
     if (!patch.rational)
         for (Vector4& pole : patch.poles) pole[3] = 1.0;
 
-    // Matrix entries 6 (p + q), inner products 2 (p + 1) + 2 (q + 1), translation and weighting 2; one more for the
-    // second-order terms of these counts, which stay below one unit for every degree up to maximum_degree.
-    const double units = 8.0 * (p + q) + 7.0;
+    const double units = extraction_units(p, q);
     patch.position_error = units * unit_roundoff * largest;
     patch.weight_error = patch.rational ? units * unit_roundoff * heaviest : 0.0;
     return patch;
 }
 
 }  // namespace
+
+double extraction_units(int u_degree, int v_degree) {
+    // Matrix entries 6 (p + q), inner products 2 (p + 1) + 2 (q + 1), translation and weighting 2; one more for the
+    // second-order terms of these counts, which stay below one unit for every degree up to maximum_degree.
+    return 8.0 * (u_degree + v_degree) + 7.0;
+}
+
+std::vector<PoleMagnitude> pole_magnitudes(const NurbsSurface& surface, const BezierPatch& patch) {
+    const int p = patch.u_degree, q = patch.v_degree;
+    const int u = surface.u_knots().span(patch.domain.u.middle()), v = surface.v_knots().span(patch.domain.v.middle());
+    const std::vector<double> u_matrix = surface.u_knots().bernstein_matrix(u);
+    const std::vector<double> v_matrix = surface.v_knots().bernstein_matrix(v);
+    const auto combine = [](const PoleMagnitude& sum, double factor, const PoleMagnitude& part) {
+        if (factor == 0.0) return sum;
+        return PoleMagnitude{sum.position + factor * part.position, sum.weight + factor * part.weight,
+                             std::max(sum.distance, part.distance)};
+    };
+    std::vector<PoleMagnitude> local((p + 1) * (q + 1)), half(local.size()), result(local.size());
+    for (int i = 0; i <= p; ++i)
+        for (int j = 0; j <= q; ++j) {
+            const double w = surface.weight(u - p + i, v - q + j);
+            const double distance = (surface.pole(u - p + i, v - q + j) - patch.origin).cwiseAbs().maxCoeff();
+            local[i * (q + 1) + j] = {w * distance, w, distance};
+        }
+    for (int i = 0; i <= p; ++i)
+        for (int j = 0; j <= q; ++j)
+            for (int k = 0; k <= q; ++k)
+                half[i * (q + 1) + j] =
+                    combine(half[i * (q + 1) + j], v_matrix[j * (q + 1) + k], local[i * (q + 1) + k]);
+    for (int i = 0; i <= p; ++i)
+        for (int k = 0; k <= p; ++k)
+            for (int j = 0; j <= q; ++j)
+                result[i * (q + 1) + j] =
+                    combine(result[i * (q + 1) + j], u_matrix[i * (p + 1) + k], half[k * (q + 1) + j]);
+    return result;
+}
 
 BezierPatches bezier_patches(const NurbsSurface& surface) {
     const std::vector<Span> u_spans = spans(surface.u_knots());

@@ -36,6 +36,18 @@ struct BezierPatches {
     std::vector<BezierPatch> patches;
 };
 
+/// What the errors of one pole of a patch are relative to.
+struct PoleMagnitude {
+    double position = 0.0;  ///< sum of m |w (P - origin)|, m >= 0 the coefficients of the extraction
+    double weight = 0.0;    ///< sum of m w
+    double distance = 0.0;  ///< max |P - origin| over the control points that take part
+};
+/// Of every pole of a patch of `surface`.
+std::vector<PoleMagnitude> pole_magnitudes(const NurbsSurface& surface, const BezierPatch& patch);
+
+/// Units of roundoff that the extraction of a pole loses at most, relative to its magnitudes.
+double extraction_units(int u_degree, int v_degree);
+
 /// Splits a surface at all its distinct knots (thesis 3.6, 4.6.2). Each piece is formed directly from the polar form of
 /// the surface with non-negative combinations of its (degree + 1)^2 control points, so the error does not accumulate
 /// from piece to piece.

@@ -24,6 +24,8 @@ constexpr double touching = 1e-12;
 constexpr double curvature_spread = 1e-6;
 /// Heaps with a diameter below this many resolutions of the surface's box are a single point (a pole).
 constexpr double point_like = 4.0;
+/// Distances of the ways around a cluster that are tried, in resolutions.
+constexpr std::array<double, 5> ring_margins = {0.01, 0.1, 1.0, 4.0, 16.0};
 /// Boxes in which the curvature of a region is looked at.
 constexpr std::size_t curvature_samples = 64;
 
@@ -141,19 +143,34 @@ double area(const NurbsSurface& surface, const ParameterBox& box) {
 }
 
 std::optional<double> cluster_index(const NurbsSurface& surface, const BezierPatches& patches,
-                                    const InputRounding& input, const ParameterBox& cluster,
-                                    const UmbilicOptions& options, const FaceUmbilics& result) {
+                                    const InputRounding& input, const std::vector<OpenPart>& parts,
+                                    const ParameterBox& cluster, const UmbilicOptions& options,
+                                    const FaceUmbilics& result) {
     const ParameterBox domain = surface.domain();
-    const double u_margin = std::max(0.5 * cluster.u.length(), 1e-2 * options.resolution * domain.u.length());
-    const double v_margin = std::max(0.5 * cluster.v.length(), 1e-2 * options.resolution * domain.v.length());
-    const ParameterBox around{{domain.u.clamp(cluster.u.low - u_margin), domain.u.clamp(cluster.u.high + u_margin)},
-                              {domain.v.clamp(cluster.v.low - v_margin), domain.v.clamp(cluster.v.high + v_margin)}};
-    const std::optional<double> winding = rectangle_winding(surface, patches, input, around);
-    if (!winding) return std::nullopt;
-    double index = 0.5 * *winding;
-    for (const Umbilic& umbilic : result.umbilics)
-        if (around.contains(umbilic.at.u, umbilic.at.v)) index -= umbilic.index;
-    return index;
+    // (A, B) may be too small near a degenerate point; then a wider way around it is taken, as long as it holds nothing
+    // else that is undecided.
+    for (const double margin : ring_margins) {
+        const double u_margin = std::max(0.5 * cluster.u.length(), margin * options.resolution * domain.u.length());
+        const double v_margin = std::max(0.5 * cluster.v.length(), margin * options.resolution * domain.v.length());
+        const ParameterBox around{
+            {domain.u.clamp(cluster.u.low - u_margin), domain.u.clamp(cluster.u.high + u_margin)},
+            {domain.v.clamp(cluster.v.low - v_margin), domain.v.clamp(cluster.v.high + v_margin)}};
+        const auto crowds = [&](const OpenPart& part) {
+            const auto meet = [](const ParameterInterval& a, const ParameterInterval& b) {
+                return a.low <= b.high && b.low <= a.high;
+            };
+            const bool own = meet(part.box.u, cluster.u) && meet(part.box.v, cluster.v);
+            return !own && meet(part.box.u, around.u) && meet(part.box.v, around.v);
+        };
+        if (std::any_of(parts.begin(), parts.end(), crowds)) break;
+        const std::optional<double> winding = rectangle_winding(surface, patches, input, around);
+        if (!winding) continue;
+        double index = 0.5 * *winding;
+        for (const Umbilic& umbilic : result.umbilics)
+            if (around.contains(umbilic.at.u, umbilic.at.v)) index -= umbilic.index;
+        return index;
+    }
+    return std::nullopt;
 }
 
 }  // namespace
@@ -219,7 +236,8 @@ void sort_open_parts(const NurbsSurface& surface, const BezierPatches& patches, 
                 continue;
             }
         }
-        result.undecided.push_back({std::move(boxes), cluster_index(surface, patches, input, extent, options, result)});
+        result.undecided.push_back(
+            {std::move(boxes), cluster_index(surface, patches, input, parts, extent, options, result)});
     }
 }
 

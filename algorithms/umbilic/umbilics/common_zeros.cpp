@@ -30,6 +30,8 @@ constexpr double largest_contraction = 0.75;
 constexpr double reach = 0.4;
 constexpr double margin = 1e-3;
 constexpr int newton_steps = 12;
+/// Newton steps in precise arithmetic: from a radius of 10^-6 of the domain two reach rounding.
+constexpr int precise_steps = 4;
 /// A direction is not split beyond the limit for the other if its relative variation is below this share of it.
 constexpr double least_variation = 0.01;
 /// Boxes between two looks at the progress handle.
@@ -79,12 +81,15 @@ void CommonZeros::clear() {
     exhausted = false;
 }
 
-void CommonZeroSearch::set_polynomials(const TensorPolynomial& a, const TensorPolynomial& b, Enclosure enclosure) {
+void CommonZeroSearch::set_polynomials(const TensorPolynomial& a, const TensorPolynomial& b, Enclosure enclosure,
+                                       Enclosure precise) {
     assert(a.u_degree == b.u_degree && a.v_degree == b.v_degree);
     shape_ = {a.u_degree, a.v_degree};
     enclosure_ = std::move(enclosure);
+    precise_ = std::move(precise);
+    arrays_ = a.errors.empty() || b.errors.empty() ? 2 : 4;
     const int size = shape_.size();
-    root_.resize(2 * size);
+    root_.resize(arrays_ * size);
     const TensorPolynomial* source[2] = {&a, &b};
     CoefficientBound* bound[2] = {&root_bounds_.a, &root_bounds_.b};
     for (int k = 0; k < 2; ++k) {
@@ -96,40 +101,73 @@ void CommonZeroSearch::set_polynomials(const TensorPolynomial& a, const TensorPo
         for (int at = 0; at < size; ++at) c[at] *= scale;
         bound[k]->rounding *= scale;
         bound[k]->input *= scale;
+        if (arrays_ == 2) continue;
+        double* errors = root_.data() + (k + 2) * size;
+        source[k]->bernstein_errors({errors, static_cast<std::size_t>(size)});
+        for (int at = 0; at < size; ++at) errors[at] *= scale;
     }
+    root_bounds_ = with_local_errors(root_.data(), root_bounds_);
     combined_.resize(2 * size);
     enlarged_.resize(2 * size);
     basis_.resize(2 * (shape_.p + shape_.q + 2));
 }
 
+CommonZeroSearch::Bounds CommonZeroSearch::with_local_errors(const double* coefficients, Bounds bounds) const {
+    if (arrays_ == 2) return bounds;
+    const int size = shape_.size();
+    const double a = Array(coefficients + 2 * size, size).maxCoeff();
+    const double b = Array(coefficients + 3 * size, size).maxCoeff();
+    return {{a, a}, {b, b}};
+}
+
+CommonZeroSearch::Bounds CommonZeroSearch::load(const ParameterBox& part) {
+    const int size = shape_.size();
+    if (slots_.size() < root_.size()) slots_.resize(root_.size());
+    std::copy(root_.begin(), root_.end(), slots_.begin());
+    Bounds bounds = root_bounds_;
+    if (part.u.low > 0.0 || part.u.high < 1.0 || part.v.low > 0.0 || part.v.high < 1.0) {
+        for (int k = 0; k < 2; ++k) {
+            double* c = slots_.data() + k * size;
+            const double arithmetic = gamma_bound(8 * (shape_.p + shape_.q)) * Array(c, size).abs().maxCoeff();
+            restrict_u(shape_, c, part.u.low, part.u.high);
+            restrict_v(shape_, c, part.v.low, part.v.high);
+            grow(k == 0 ? bounds.a : bounds.b, 1.0, arithmetic);
+            if (arrays_ == 2) continue;
+            double* errors = slots_.data() + (k + 2) * size;
+            const double of_errors = gamma_bound(8 * (shape_.p + shape_.q)) * Array(errors, size).maxCoeff();
+            restrict_u(shape_, errors, part.u.low, part.u.high);
+            restrict_v(shape_, errors, part.v.low, part.v.high);
+            for (int at = 0; at < size; ++at)
+                errors[at] = (std::abs(errors[at]) + arithmetic + of_errors) * bound_slack;
+        }
+    }
+    return with_local_errors(slots_.data(), bounds);
+}
+
+double CommonZeroSearch::largest_error(const ParameterBox& part) {
+    const Bounds bounds = load(part);
+    return std::max(bounds.a.input, bounds.b.input);
+}
+
 void CommonZeroSearch::search(const ParameterBox& part, const SearchLimits& limits, const Progress& progress,
                               CommonZeros& result) {
     const int size = shape_.size();
-    const auto slot = [&](std::size_t k) { return slots_.data() + k * 2 * size; };
-    if (slots_.size() < root_.size()) slots_.resize(root_.size());
-    nodes_.assign(1, {part, root_bounds_});
-    std::copy(root_.begin(), root_.end(), slots_.begin());
-    if (part.u.low > 0.0 || part.u.high < 1.0 || part.v.low > 0.0 || part.v.high < 1.0) {
-        for (int k = 0; k < 2; ++k) {
-            double* c = slot(0) + k * size;
-            const double arithmetic = gamma_bound(6 * (shape_.p + shape_.q)) * Array(c, size).abs().maxCoeff();
-            restrict_u(shape_, c, part.u.low, part.u.high);
-            restrict_v(shape_, c, part.v.low, part.v.high);
-            grow(k == 0 ? nodes_[0].bounds.a : nodes_[0].bounds.b, 1.0, arithmetic);
-        }
-    }
+    const std::size_t stride = static_cast<std::size_t>(arrays_) * size;
+    const auto slot = [&](std::size_t k) { return slots_.data() + k * stride; };
+    wanted_radius_ = Vector2(limits.u_radius, limits.v_radius);
+    nodes_.assign(1, {part, load(part)});
 
     long visited = 0;
     while (!nodes_.empty()) {
         if (visited == limits.boxes) {
             result.exhausted = true;
-            for (const Node& node : nodes_) result.open.push_back({node.box, false});
+            for (const Node& node : nodes_) result.open.push_back({node.box, false, 0.0});
             break;
         }
         if (++visited % boxes_per_check == 0) progress.check();
         const std::size_t top = nodes_.size() - 1;
         const Outcome outcome = examine(nodes_[top], slot(top), result);
-        if (outcome == Outcome::zero) result.open.push_back({nodes_[top].box, true});
+        if (outcome == Outcome::zero) result.open.push_back({nodes_[top].box, true, 1.0});
         if (outcome != Outcome::split) {
             nodes_.pop_back();
             continue;
@@ -144,11 +182,13 @@ void CommonZeroSearch::search(const ParameterBox& part, const SearchLimits& limi
             possible = along_u ? u_long : v_long;
         }
         if (!possible) {
-            result.open.push_back({box, false});
+            const Bounds& bounds = nodes_[top].bounds;
+            result.open.push_back(
+                {box, false, std::max(bounds.a.input / magnitude_[0], bounds.b.input / magnitude_[1])});
             nodes_.pop_back();
             continue;
         }
-        if (slots_.size() < (top + 2) * 2 * size) slots_.resize((top + 2) * 2 * size);
+        if (slots_.size() < (top + 2) * stride) slots_.resize((top + 2) * stride);
         Node& second = nodes_[top];
         const int degree = along_u ? shape_.p : shape_.q;
         grow(second.bounds.a, 1.0, gamma_bound(degree) * magnitude_[0]);
@@ -158,8 +198,18 @@ void CommonZeroSearch::search(const ParameterBox& part, const SearchLimits& limi
             first.box.u.high = second.box.u.low = box.u.middle();
         else
             first.box.v.high = second.box.v.low = box.v.middle();
-        for (int k = 0; k < 2; ++k)
+        for (int k = 0; k < arrays_; ++k)
             (along_u ? halve_u : halve_v)(shape_, slot(top) + k * size, slot(top + 1) + k * size);
+        if (arrays_ == 4) {
+            for (double* half : {slot(top), slot(top + 1)})
+                for (int k = 0; k < 2; ++k) {
+                    double* errors = half + (k + 2) * size;
+                    const double arithmetic = gamma_bound(degree) * magnitude_[k];
+                    for (int at = 0; at < size; ++at) errors[at] = (errors[at] + arithmetic) * bound_slack;
+                }
+            second.bounds = with_local_errors(slot(top), second.bounds);
+            first.bounds = with_local_errors(slot(top + 1), first.bounds);
+        }
         nodes_.push_back(first);
     }
     result.boxes += visited;
@@ -349,6 +399,7 @@ CommonZeroSearch::Outcome CommonZeroSearch::isolate(const Node& node, const doub
         }
         zero.input_radius = rounded * scale + placing;
         zero.box = placed(node.box, low, high);
+        if (precise_ && (zero.radius.array() > wanted_radius_.array()).any()) sharpen(y, norm, scale, zero.box, zero);
         add_zero(zero, result);
         return Outcome::isolated;
     };
@@ -374,7 +425,7 @@ CommonZeroSearch::Outcome CommonZeroSearch::isolate(const Node& node, const doub
         double* c = enlarged_.data() + k * size;
         const double largest = Array(c, size).abs().maxCoeff();
         const double factor = restrict_u(shape_, c, low.x(), high.x()) * restrict_v(shape_, c, low.y(), high.y());
-        grow(k == 0 ? bounds.a : bounds.b, factor, gamma_bound(6 * (shape_.p + shape_.q)) * factor * largest);
+        grow(k == 0 ? bounds.a : bounds.b, factor, gamma_bound(8 * (shape_.p + shape_.q)) * factor * largest);
     }
     const Vector2 scale = high - low;
     const Matrix2 scaled = scale.cwiseInverse().asDiagonal() * preconditioner;
@@ -390,6 +441,29 @@ CommonZeroSearch::Outcome CommonZeroSearch::isolate(const Node& node, const doub
     if ((at.array() + reaching < outside_low.array()).any() || (at.array() - reaching > outside_high.array()).any())
         return Outcome::empty;
     return accept(low, high, scaled, *norm, radius(there, there.rounding, *norm), rounded);
+}
+
+void CommonZeroSearch::sharpen(const Matrix2& preconditioner, double norm, const Vector2& scale,
+                               const ParameterBox& box, IsolatedZero& zero) const {
+    // Rounding of the place within the precise enclosure.
+    const Vector2 placing = Vector2::Constant(2 * unit_roundoff);
+    Vector2 at = zero.at;
+    for (int step = 0; step < precise_steps; ++step) {
+        const std::array<Interval, 2> value = precise_(at);
+        const Interval a = value[0] * scale_[0], b = value[1] * scale_[1];
+        const Interval x = Interval(preconditioner(0, 0)) * a + Interval(preconditioner(0, 1)) * b;
+        const Interval y = Interval(preconditioner(1, 0)) * a + Interval(preconditioner(1, 1)) * b;
+        const Vector2 radius = std::max(x.magnitude(), y.magnitude()) / (1.0 - norm) * bound_slack * scale + placing;
+        const Vector2 low = at - radius, high = at + radius;
+        if (!box.contains(low.x(), low.y()) || !box.contains(high.x(), high.y())) return;
+        if ((radius.array() < zero.radius.array()).all()) {
+            zero.at = at;
+            zero.radius = radius;
+        } else if (step > 0) {
+            return;
+        }
+        at -= scale.cwiseProduct(Vector2(x.middle(), y.middle()));
+    }
 }
 
 void CommonZeroSearch::add_zero(const IsolatedZero& zero, CommonZeros& result) {

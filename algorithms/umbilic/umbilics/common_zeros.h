@@ -28,6 +28,8 @@ struct IsolatedZero {
 struct OpenBox {
     ParameterBox box;
     bool zero = false;  ///< both polynomials are zero on it within the input's rounding
+    /// Greater share that the bound from the input's rounding has in the size of the two polynomials on it.
+    double doubt = 0.0;
 };
 
 struct CommonZeros {
@@ -43,6 +45,8 @@ struct SearchLimits {
     double u_size = 1e-3;  ///< boxes are not split in a direction in which they are at most this long
     double v_size = 1e-3;
     long boxes = 100000;  ///< visited before the rest is left open
+    /// Radius (in u and v) above which a zero's place is improved by the precise enclosure, if there is one.
+    double u_radius = 0.0, v_radius = 0.0;
 };
 
 /// Common zeros in [0, 1]^2 of two bivariate polynomials of the same bidegree by subdivision in the Bernstein basis,
@@ -53,9 +57,15 @@ public:
     /// Values of both polynomials at a point, enclosed.
     using Enclosure = std::function<std::array<Interval, 2>(const Vector2& at)>;
 
-    /// Takes the polynomials; they are scaled to one magnitude by powers of two. `enclosure`, if there is one, gives
-    /// tighter values at single points than the coefficients with their common bound; it makes the radii smaller.
-    void set_polynomials(const TensorPolynomial& a, const TensorPolynomial& b, Enclosure enclosure = {});
+    /// Takes the polynomials; they are scaled to one magnitude by powers of two. If both have `errors`, every box has
+    /// its own bounds. `enclosure`, if there is one, gives tighter values at single points than the coefficients with
+    /// their common bound; it makes the radii smaller. `precise` is slow and used only for radii that are still too
+    /// large.
+    void set_polynomials(const TensorPolynomial& a, const TensorPolynomial& b, Enclosure enclosure = {},
+                         Enclosure precise = {});
+
+    /// Largest bound on the coefficients' errors on a part of [0, 1]^2, relative to the polynomials' sizes.
+    double largest_error(const ParameterBox& part);
 
     /// Searches `part` of [0, 1]^2 and appends what it finds. Throws Cancelled.
     void search(const ParameterBox& part, const SearchLimits& limits, const Progress& progress, CommonZeros& result);
@@ -79,6 +89,11 @@ private:
         double input[2];
     };
 
+    /// Brings the polynomials, and the errors, to `part` of [0, 1]^2 in the first slot, with their bounds.
+    Bounds load(const ParameterBox& part);
+    Bounds with_local_errors(const double* coefficients, Bounds bounds) const;
+    void sharpen(const Matrix2& preconditioner, double norm, const Vector2& scale, const ParameterBox& box,
+                 IsolatedZero& zero) const;
     Outcome examine(const Node& node, const double* coefficients, CommonZeros& result);
     Outcome isolate(const Node& node, const double* coefficients, const Matrix2& preconditioner, double contraction,
                     CommonZeros& result);
@@ -90,11 +105,13 @@ private:
     std::optional<double> contraction(const double* coefficients, const Bounds& bounds, const Matrix2& preconditioner);
 
     CoefficientShape shape_;
-    std::vector<double> root_;  ///< coefficients of a, then of b
+    int arrays_ = 2;            ///< per box: coefficients of a, of b, and their errors if there are any
+    std::vector<double> root_;  ///< these arrays on [0, 1]^2
     Bounds root_bounds_;
     std::array<double, 2> scale_{};
-    Enclosure enclosure_;
-    std::vector<double> slots_;  ///< one pair of arrays per open node of the depth-first tree
+    Enclosure enclosure_, precise_;
+    Vector2 wanted_radius_ = Vector2::Zero();
+    std::vector<double> slots_;  ///< `arrays_` arrays per open node of the depth-first tree
     std::vector<Node> nodes_;
     std::vector<double> combined_, enlarged_, basis_;
     std::array<double, 2> magnitude_{};

@@ -15,6 +15,10 @@ namespace {
 
 constexpr double ulp_of_one = std::numeric_limits<double>::epsilon();
 
+/// A tangent below this multiple of the bound from the input's rounding is zero: a few ulps, since control points
+/// rarely come from a single rounding.
+constexpr double zero_factor = 4.0;
+
 void sum(std::initializer_list<ProductTerm> terms, TensorPolynomial& result) {
     sum_of_products({terms.begin(), terms.size()}, result);
 }
@@ -71,6 +75,15 @@ InputRounding input_rounding(const NurbsSurface& surface) {
     return result;
 }
 
+EquationScale equation_scale(const BezierPatch& patch) {
+    double position = 0.0, weight = 0.0;
+    for (const Vector4& pole : patch.poles) {
+        position = std::max(position, pole.head<3>().cwiseAbs().maxCoeff());
+        weight = std::max(weight, pole[3]);
+    }
+    return {position > 0.0 ? std::ldexp(1.0, -std::ilogb(position)) : 1.0, std::ldexp(1.0, -std::ilogb(weight))};
+}
+
 void UmbilicEquations::load(const BezierPatch& patch, const InputRounding& input) {
     p_ = patch.u_degree;
     q_ = patch.v_degree;
@@ -83,12 +96,12 @@ void UmbilicEquations::load(const BezierPatch& patch, const InputRounding& input
         lightest = std::min(lightest, pole[3]);
     }
     // Powers of two: exact, and nothing over- or underflows whatever the unit of length.
-    const double position_scale = position > 0.0 ? std::ldexp(1.0, -std::ilogb(position)) : 1.0;
-    const double weight_scale = std::ldexp(1.0, -std::ilogb(weight));
+    const EquationScale scales = equation_scale(patch);
     const double position_input = patch.position_error + weight * input.position + position / lightest * input.weight;
     for (int k = 0; k < 4; ++k) {
-        const double scale = k < 3 ? position_scale : weight_scale;
+        const double scale = k < 3 ? scales.position : scales.weight;
         net_[k].resize(count);
+        net_errors_[k].clear();
         net_magnitude_[k] = 0.0;
         for (int at = 0; at < count; ++at) {
             net_[k][at] = patch.poles[at][k] * scale;
@@ -99,25 +112,16 @@ void UmbilicEquations::load(const BezierPatch& patch, const InputRounding& input
         else
             net_bound_[k] = {patch.weight_error * scale, (patch.weight_error + input.weight) * scale * bound_slack};
     }
-    find_collapsed_edges();
 }
 
-void UmbilicEquations::find_collapsed_edges() {
+void UmbilicEquations::find_singular_edges() {
     for (const PatchEdge edge : {PatchEdge::u_low, PatchEdge::u_high, PatchEdge::v_low, PatchEdge::v_high}) {
-        const bool across_u = edge == PatchEdge::u_low || edge == PatchEdge::u_high;
-        const auto at = [&](int k) {
-            if (across_u) return (edge == PatchEdge::u_low ? 0 : p_) * (q_ + 1) + k;
-            return k * (q_ + 1) + (edge == PatchEdge::v_low ? 0 : q_);
+        const auto vanishes_there = [&](const Vector3Polynomial& tangent) {
+            return std::all_of(tangent.begin(), tangent.end(), [&](const TensorPolynomial& component) {
+                return edge_magnitude(component, edge) <= zero_factor * component.bound.input;
+            });
         };
-        bool same = true;
-        for (int k = 1; k <= (across_u ? q_ : p_); ++k)
-            for (int c = 0; c < 3; ++c) {
-                const double gap = net_[c][at(k)] * net_[3][at(0)] - net_[c][at(0)] * net_[3][at(k)];
-                const double bound = 4.0 * (net_bound_[c].input * net_magnitude_[3] +
-                                            (net_bound_[3].input + ulp_of_one) * net_magnitude_[c]);
-                same = same && std::abs(gap) <= bound;
-            }
-        collapsed_[static_cast<int>(edge)] = same;
+        singular_[static_cast<int>(edge)] = vanishes_there(u_) || vanishes_there(v_);
     }
 }
 
@@ -143,6 +147,19 @@ void UmbilicEquations::difference(int k, int u_order, int v_order, double factor
     result.bound = {growth * (net_bound_[k].rounding + arithmetic) * bound_slack,
                     growth * (net_bound_[k].input + arithmetic) * bound_slack};
     result.measure();
+    if (net_errors_[k].empty()) return;
+    result.errors.resize(result.scaled.size());
+    for (int i = 0; i <= result.u_degree; ++i)
+        for (int j = 0; j <= result.v_degree; ++j) {
+            double error = 0.0;
+            for (int s = 0; s <= u_order; ++s)
+                for (int t = 0; t <= v_order; ++t) {
+                    const int at = (i + s) * row + j + t;
+                    error += std::abs(stencil[u_order][s] * stencil[v_order][t]) *
+                             (net_errors_[k][at] + gamma_bound(6) * std::abs(net_[k][at]));
+                }
+            result.errors[i * result.row_length() + j] = error * factor * (bu[i] * bv[j]) * bound_slack;
+        }
 }
 
 void UmbilicEquations::sub_net(int k, int u_start, int u_drop, int v_start, int v_drop, double factor,
@@ -159,14 +176,44 @@ void UmbilicEquations::sub_net(int k, int u_start, int u_drop, int v_start, int 
     result.bound = {factor * (net_bound_[k].rounding + arithmetic) * bound_slack,
                     factor * (net_bound_[k].input + arithmetic) * bound_slack};
     result.measure();
+    if (net_errors_[k].empty()) return;
+    result.errors.resize(result.scaled.size());
+    for (int i = 0; i <= result.u_degree; ++i)
+        for (int j = 0; j <= result.v_degree; ++j) {
+            const int at = (i + u_start) * (q_ + 1) + j + v_start;
+            result.errors[i * result.row_length() + j] =
+                (net_errors_[k][at] + gamma_bound(3) * std::abs(net_[k][at])) * factor * (bu[i] * bv[j]) * bound_slack;
+        }
 }
 
 void UmbilicEquations::form_fundamental(const BezierPatch& patch, const InputRounding& input) {
     load(patch, input);
-    if (patch.rational)
+    form_loaded();
+}
+
+void UmbilicEquations::form_fundamental_with_errors(const NurbsSurface& surface, const BezierPatch& patch,
+                                                    const InputRounding& input) {
+    load(patch, input);
+    const EquationScale scales = equation_scale(patch);
+    const std::vector<PoleMagnitude> magnitudes = pole_magnitudes(surface, patch);
+    const double extraction = extraction_units(p_, q_) * unit_roundoff;
+    for (std::vector<double>& errors : net_errors_) errors.resize(magnitudes.size());
+    for (std::size_t at = 0; at < magnitudes.size(); ++at) {
+        const PoleMagnitude& m = magnitudes[at];
+        // A control point moved by input.position, or a weight changed by input.weight, moves the pole by at most:
+        const double position = extraction * m.position + m.weight * input.position + m.distance * input.weight;
+        for (int k = 0; k < 3; ++k) net_errors_[k][at] = position * scales.position * bound_slack;
+        net_errors_[3][at] = rational_ ? (extraction * m.weight + input.weight) * scales.weight * bound_slack : 0.0;
+    }
+    form_loaded();
+}
+
+void UmbilicEquations::form_loaded() {
+    if (rational_)
         form_rational();
     else
         form_integral();
+    find_singular_edges();
 }
 
 void UmbilicEquations::form_integral() {
@@ -296,9 +343,9 @@ EdgeEquations UmbilicEquations::edge_equations(PatchEdge edge) const {
     return result;
 }
 
-void UmbilicEquations::divide_by_collapsed_edges() {
+void UmbilicEquations::divide_by_singular_edges() {
     for (const PatchEdge edge : {PatchEdge::u_low, PatchEdge::u_high, PatchEdge::v_low, PatchEdge::v_high}) {
-        if (!collapsed(edge)) continue;
+        if (!singular(edge)) continue;
         const bool across_u = edge == PatchEdge::u_low || edge == PatchEdge::u_high;
         for (TensorPolynomial* polynomial : {&a_, &b_})
             while ((across_u ? polynomial->u_degree : polynomial->v_degree) > 0 &&

@@ -29,6 +29,8 @@ namespace {
 /// Boxes are split down to this share of their patch however small the patch is: the resolution is relative to the
 /// whole domain, and a narrow patch needs some boxes of its own.
 constexpr double coarsest_patch_size = 1.0 / 16;
+/// Radius of an umbilic, relative to the domain, above which its place is improved in precise arithmetic.
+constexpr double wanted_radius = 2e-11;
 /// Points beside a pole that are looked at to tell whether it belongs to a face, and their distance from it relative to
 /// the domain: beyond the accuracy of the loops.
 constexpr int pole_samples = 16;
@@ -68,8 +70,10 @@ std::vector<PatchUmbilics> search_patches(const NurbsSurface& surface, const Bez
             task.limits.v_size =
                 std::min(coarsest_patch_size, options.resolution * domain.v.length() / patch.domain.v.length());
             task.limits.boxes = options.boxes_per_patch;
+            task.limits.u_radius = wanted_radius * domain.u.length() / patch.domain.u.length();
+            task.limits.v_radius = wanted_radius * domain.v.length() / patch.domain.v.length();
             if (options.certificate) task.edges = {u_border[i], u_border[i + 1], v_border[j], v_border[j + 1]};
-            result[k] = search.search(patch, input, task, progress);
+            result[k] = search.search(surface, patch, input, task, progress);
         }
         done += part.size();
         progress.report(static_cast<double>(done) / static_cast<double>(count), "umbilics");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <umbilic/bernstein/box_clusters.h>
 #include <umbilic/umbilics/winding.h>
 
 namespace umbilic {
@@ -10,46 +11,61 @@ namespace umbilic {
 namespace {
 
 /// Boxes left open by the first search are searched again this much finer, so that umbilics closer than the resolution
-/// and nearly non-generic ones are told apart; lines of umbilics show by exhausting `refinement_boxes`.
+/// and nearly non-generic ones are told apart. Boxes that touch are searched as one heap, with a budget that shrinks
+/// with its size: lines of umbilics show by exhausting it.
 constexpr double refinement = 1e-4;
-constexpr long refinement_boxes = 1500;
-constexpr std::size_t most_refined = 64;
-/// Next to a collapsed edge, within this part of the patch, the equations divided by the edge's factors are used: they
+constexpr std::size_t most_refined = 256;
+/// A box longer than this many smallest ones was not halved because nothing varies along it: part of a line.
+constexpr double longest_refined = 8.0;
+constexpr long heap_budget = 48000, least_heap_budget = 1500, most_heap_budget = 6000;
+/// Boxes all refinements of one patch may use.
+constexpr long refinement_budget = 30000;
+/// Next to a singular edge, within this part of the patch, the equations divided by the edge's factors are used: they
 /// have a looser bound, but do not vanish on the edge.
-constexpr double pole_share = 0.125;
-
-bool smaller_than_limits(const ParameterBox& box, const SearchLimits& limits) {
-    return box.u.length() <= limits.u_size && box.v.length() <= limits.v_size;
-}
+constexpr double edge_share = 0.125;
+/// A box on which the bound has this share in the polynomials' sizes is open because of the bound.
+constexpr double doubtful = 1e-3;
+/// It is searched again with bounds for single coefficients if those are smaller by this factor.
+constexpr double worthwhile = 0.25;
 
 }  // namespace
 
-PatchUmbilics PatchSearch::search(const BezierPatch& patch, const InputRounding& input, const PatchTask& task,
-                                  const Progress& progress) {
+void PatchSearch::take_equations(const NurbsSurface& surface, const BezierPatch& patch, bool divided) {
+    equations_.form_umbilic();
+    if (divided) {
+        equations_.divide_by_singular_edges();
+        zeros_.set_polynomials(equations_.a(), equations_.b());
+        return;
+    }
+    zeros_.set_polynomials(
+        equations_.a(), equations_.b(), [this](const Vector2& at) { return equations_.enclose(at); },
+        [&surface, &patch](const Vector2& at) { return enclose_precisely(surface, patch, at); });
+}
+
+PatchUmbilics PatchSearch::search(const NurbsSurface& surface, const BezierPatch& patch, const InputRounding& input,
+                                  const PatchTask& task, const Progress& progress) {
     PatchUmbilics result;
     equations_.form_fundamental(patch, input);
     for (const PatchEdge edge : {PatchEdge::u_low, PatchEdge::u_high, PatchEdge::v_low, PatchEdge::v_high}) {
         const int k = static_cast<int>(edge);
-        result.collapsed[k] = equations_.collapsed(edge);
+        result.singular[k] = equations_.singular(edge);
         if (task.edges[k])
             result.turning[k] = {
                 true, turning(equations_.edge_equations(edge), patch.domain.u.length(), patch.domain.v.length())};
     }
     if (equations_.excluded_by_hulls()) return result;
     result.formed = true;
-    equations_.form_umbilic();
-    zeros_.set_polynomials(equations_.a(), equations_.b(),
-                           [this](const Vector2& at) { return equations_.enclose(at); });
+    take_equations(surface, patch, false);
 
     ParameterBox regular{{0.0, 1.0}, {0.0, 1.0}};
     std::vector<ParameterBox> strips;
     const auto cut = [&](PatchEdge edge, ParameterInterval ParameterBox::*side, bool low_end) {
-        if (!equations_.collapsed(edge)) return;
+        if (!equations_.singular(edge)) return;
         ParameterBox strip = regular;
         if (low_end)
-            (strip.*side).high = (regular.*side).low = (regular.*side).low + pole_share;
+            (strip.*side).high = (regular.*side).low = (regular.*side).low + edge_share;
         else
-            (strip.*side).low = (regular.*side).high = (regular.*side).high - pole_share;
+            (strip.*side).low = (regular.*side).high = (regular.*side).high - edge_share;
         strips.push_back(strip);
     };
     cut(PatchEdge::u_low, &ParameterBox::u, true);
@@ -59,51 +75,92 @@ PatchUmbilics PatchSearch::search(const BezierPatch& patch, const InputRounding&
 
     zeros_.search(regular, task.limits, progress, result.zeros);
     refine(task, progress, result.zeros);
+    redo_doubtful(surface, patch, input, task, false, progress, result.zeros);
     if (!strips.empty()) {
-        equations_.divide_by_collapsed_edges();
-        zeros_.set_polynomials(equations_.a(), equations_.b());
-        CommonZeros near_poles;
-        for (const ParameterBox& strip : strips) zeros_.search(strip, task.limits, progress, near_poles);
-        refine(task, progress, near_poles);
-        for (const IsolatedZero& zero : near_poles.isolated) CommonZeroSearch::add_zero(zero, result.zeros);
-        result.zeros.open.insert(result.zeros.open.end(), near_poles.open.begin(), near_poles.open.end());
-        result.zeros.boxes += near_poles.boxes;
-        result.zeros.exhausted = result.zeros.exhausted || near_poles.exhausted;
+        take_equations(surface, patch, true);
+        CommonZeros near_edges;
+        for (const ParameterBox& strip : strips) zeros_.search(strip, task.limits, progress, near_edges);
+        refine(task, progress, near_edges);
+        redo_doubtful(surface, patch, input, task, true, progress, near_edges);
+        for (const IsolatedZero& zero : near_edges.isolated) CommonZeroSearch::add_zero(zero, result.zeros);
+        result.zeros.open.insert(result.zeros.open.end(), near_edges.open.begin(), near_edges.open.end());
+        result.zeros.boxes += near_edges.boxes;
+        result.zeros.exhausted = result.zeros.exhausted || near_edges.exhausted;
     }
     return result;
 }
 
 void PatchSearch::refine(const PatchTask& task, const Progress& progress, CommonZeros& zeros) {
-    const auto refinable = [&](const OpenBox& open) {
-        return !open.zero && smaller_than_limits(open.box, task.limits);
-    };
-    const auto count = static_cast<std::size_t>(std::count_if(zeros.open.begin(), zeros.open.end(), refinable));
-    if (count == 0 || count > most_refined || zeros.exhausted) return;
-    SearchLimits finer;
-    finer.u_size = task.limits.u_size * refinement;
-    finer.v_size = task.limits.v_size * refinement;
-    finer.boxes = refinement_boxes;
-
-    CommonZeros refined;
-    refined.isolated = zeros.isolated;
+    if (zeros.open.empty() || zeros.exhausted) return;
+    std::vector<Interval> sides;
     for (const OpenBox& open : zeros.open) {
-        if (!refinable(open)) {
-            refined.open.push_back(open);
-            continue;
+        sides.emplace_back(open.box.u.low, open.box.u.high);
+        sides.emplace_back(open.box.v.low, open.box.v.high);
+    }
+    const BoxClusters heaps = cluster_boxes(sides, 2, 0.0);
+    std::vector<std::vector<OpenBox>> members(heaps.count);
+    for (std::size_t k = 0; k < zeros.open.size(); ++k) members[heaps.cluster[k]].push_back(zeros.open[k]);
+    zeros.open.clear();
+    long left = refinement_budget;
+    for (const std::vector<OpenBox>& heap : members) {
+        const bool refinable = std::all_of(heap.begin(), heap.end(), [&](const OpenBox& open) {
+            return !open.zero && open.box.u.length() <= longest_refined * task.limits.u_size &&
+                   open.box.v.length() <= longest_refined * task.limits.v_size;
+        });
+        CommonZeros refined;
+        refined.isolated = zeros.isolated;
+        refined.exhausted = !refinable || heap.size() > most_refined;
+        SearchLimits finer = task.limits;
+        finer.u_size *= refinement;
+        finer.v_size *= refinement;
+        const long budget =
+            std::clamp(heap_budget / static_cast<long>(heap.size()), least_heap_budget, most_heap_budget);
+        for (std::size_t k = 0; k < heap.size() && !refined.exhausted; ++k) {
+            finer.boxes = std::min(budget, left) - refined.boxes;
+            if (finer.boxes <= 0)
+                refined.exhausted = true;
+            else
+                zeros_.search(heap[k].box, finer, progress, refined);
         }
-        zeros_.search(open.box, finer, progress, refined);
+        zeros.boxes += refined.boxes;
+        left -= refined.boxes;
         if (refined.exhausted) {
             // Too much for isolated points: what the first search left stands.
-            zeros.boxes += refined.boxes;
-            return;
+            zeros.open.insert(zeros.open.end(), heap.begin(), heap.end());
+            continue;
         }
+        // On a scale this fine everything is within the input's rounding at degenerate points: undecided, no region.
+        for (OpenBox& open : refined.open) open.zero = false;
+        zeros.open.insert(zeros.open.end(), refined.open.begin(), refined.open.end());
+        zeros.isolated = std::move(refined.isolated);
     }
-    // On a scale this fine everything is within the input's rounding at degenerate points: undecided, not a region.
-    for (OpenBox& open : refined.open)
-        if (open.box.u.length() < task.limits.u_size / 2 && open.box.v.length() < task.limits.v_size / 2)
-            open.zero = false;
-    refined.boxes += zeros.boxes;
-    zeros = std::move(refined);
+}
+
+void PatchSearch::redo_doubtful(const NurbsSurface& surface, const BezierPatch& patch, const InputRounding& input,
+                                const PatchTask& task, bool divided, const Progress& progress, CommonZeros& zeros) {
+    const auto in_doubt = [](const OpenBox& open) {
+        const bool whole = open.box.u.length() == 1.0 && open.box.v.length() == 1.0;
+        return open.doubt > doubtful && !(open.zero && whole);
+    };
+    if (zeros.exhausted || std::none_of(zeros.open.begin(), zeros.open.end(), in_doubt)) return;
+    const std::vector<OpenBox> before = std::move(zeros.open);
+    zeros.open.clear();
+    std::vector<double> errors;
+    for (const OpenBox& open : before) errors.push_back(in_doubt(open) ? zeros_.largest_error(open.box) : 0.0);
+    equations_.form_fundamental_with_errors(surface, patch, input);
+    take_equations(surface, patch, divided);
+    CommonZeros again;
+    for (std::size_t k = 0; k < before.size(); ++k) {
+        if (!in_doubt(before[k]) || again.exhausted || !(zeros_.largest_error(before[k].box) < worthwhile * errors[k]))
+            zeros.open.push_back(before[k]);
+        else
+            zeros_.search(before[k].box, task.limits, progress, again);
+    }
+    refine(task, progress, again);
+    for (const IsolatedZero& zero : again.isolated) CommonZeroSearch::add_zero(zero, zeros);
+    zeros.open.insert(zeros.open.end(), again.open.begin(), again.open.end());
+    zeros.boxes += again.boxes;
+    zeros.exhausted = zeros.exhausted || again.exhausted;
 }
 
 }  // namespace umbilic

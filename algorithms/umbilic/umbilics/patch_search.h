@@ -20,7 +20,7 @@ struct EdgeTurning {
 struct PatchUmbilics {
     CommonZeros zeros;
     bool formed = false;
-    std::array<bool, 4> collapsed{};     ///< edges that are a single point, indexed by PatchEdge
+    std::array<bool, 4> singular{};      ///< UmbilicEquations::singular, indexed by PatchEdge
     std::array<EdgeTurning, 4> turning;  ///< indexed by PatchEdge
 };
 
@@ -33,11 +33,15 @@ struct PatchTask {
 /// Forms the equations of patches and finds their umbilics; memory is kept from patch to patch.
 class PatchSearch {
 public:
-    PatchUmbilics search(const BezierPatch& patch, const InputRounding& input, const PatchTask& task,
-                         const Progress& progress);
+    /// `patch` is one of `surface`.
+    PatchUmbilics search(const NurbsSurface& surface, const BezierPatch& patch, const InputRounding& input,
+                         const PatchTask& task, const Progress& progress);
 
 private:
+    void take_equations(const NurbsSurface& surface, const BezierPatch& patch, bool divided);
     void refine(const PatchTask& task, const Progress& progress, CommonZeros& zeros);
+    void redo_doubtful(const NurbsSurface& surface, const BezierPatch& patch, const InputRounding& input,
+                       const PatchTask& task, bool divided, const Progress& progress, CommonZeros& zeros);
 
     UmbilicEquations equations_;
     CommonZeroSearch zeros_;

@@ -279,10 +279,10 @@ std::vector<Pole> find_poles(const NurbsSurface& surface, const BezierPatches& p
     std::vector<Pole> result;
     for (const PatchEdge edge : {PatchEdge::u_low, PatchEdge::u_high, PatchEdge::v_low, PatchEdge::v_high}) {
         const Row row{edge, surface, patches, range};
-        bool collapsed = true;
+        bool singular = true;
         for (int k = row.first(); k < row.last(); ++k)
-            collapsed = collapsed && found[row.number(k)].collapsed[static_cast<int>(edge)];
-        if (!collapsed) continue;
+            singular = singular && found[row.number(k)].singular[static_cast<int>(edge)];
+        if (!singular) continue;
 
         const auto part_across = [&](const ParameterBox& box) { return across_u(edge) ? box.u : box.v; };
         const auto region_at_pole = [&](const OpenPart& part) {

@@ -11,7 +11,8 @@
 
 namespace umbilic {
 
-/// A side of the searched part that is a single point in space.
+/// A side of the searched part along which r_u or r_v vanishes: a single point in space, or an edge at which the
+/// parametrisation stands still.
 struct Pole {
     PatchEdge edge = PatchEdge::v_low;
     /// Parameter of the line around the pole, in the direction across the edge: no umbilic lies between it and the
