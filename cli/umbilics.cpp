@@ -9,6 +9,7 @@
 #include <cli/commands.h>
 #include <cli/console.h>
 #include <cli/exit_status.h>
+#include <cli/lines_and_regions_text.h>
 #include <cli/loading.h>
 #include <report/json.h>
 #include <report/json_geometry.h>
@@ -119,7 +120,7 @@ void add_umbilics(CLI::App& application, Session& session, Command& command) {
             clear_progress_bar();
             std::string text = bold(printable(options->path)) + "\n";
             for (const FaceUmbilics& on_face : found) text += face_line(model.face(on_face.face), on_face);
-            print(session, text + umbilic_table(model, found));
+            print(session, text + umbilic_table(model, found) + lines_and_regions_text(model, found));
             write_json(session, umbilics_json(model, found));
             return exit_done;
         };
