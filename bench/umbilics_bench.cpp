@@ -2,11 +2,14 @@
 // Search for umbilics on one thread. Peer of the same run: the surface's own evaluation, 1000 points with second
 // derivatives, as a measure of the machine.
 #include <algorithm>
+#include <cmath>
 
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
 
 #include <support/surfaces.h>
+#include <support/swept_surfaces.h>
+#include <umbilic/differential/recognise.h>
 #include <umbilic/umbilics/find.h>
 
 namespace umbilic {
@@ -57,6 +60,41 @@ void rational_rough(benchmark::State& state) {
     search(state, support::random_surface(3, 3, n, n, seed, 0.05, 3.0));
 }
 
+/// Inflection line across 17 patches of a 20 x 20 developable.
+void line(benchmark::State& state) {
+    const NurbsSurface base = support::smooth_bicubic(20, seed);
+    std::vector<Vector3> poles = base.poles();
+    for (Vector3& pole : poles) pole.z() = std::pow(pole.x() - 0.5754, 3) + 0.1 * pole.x();
+    search(state, NurbsSurface(base.u_knots(), base.v_knots(), poles));
+}
+
+/// Rough surface with a planar block of 5 x 5 spans, or a rough block on a plate.
+void planar_part(benchmark::State& state) {
+    const bool inside = state.range(0) != 0;
+    const NurbsSurface base = support::rough_bicubic(20, seed);
+    std::vector<Vector3> poles = base.poles();
+    for (int i = 0; i < 20; ++i)
+        for (int j = 0; j < 20; ++j)
+            if ((i >= 6 && i < 14 && j >= 6 && j < 14) == inside) poles[i * 20 + j].z() = 0.0;
+    search(state, NurbsSurface(base.u_knots(), base.v_knots(), poles));
+}
+
+void plane(benchmark::State& state) {
+    search(state,
+           support::transformed(support::smooth_bicubic(20, seed, 0.0), support::random_similarity(3, 1.0, false)));
+}
+
+void sphere(benchmark::State& state) {
+    search(state, support::revolved(support::arc({0, 0}, 1.0, -1.5, 1.5), 6.0));
+}
+
+/// What recognition costs on a surface that is nothing of the kind, and on a sphere.
+void recognition(benchmark::State& state) {
+    const NurbsSurface surface = state.range(0) == 0 ? support::smooth_bicubic(20, seed)
+                                                     : support::revolved(support::arc({0, 0}, 1.0, -1.5, 1.5), 6.0);
+    for (auto _ : state) benchmark::DoNotOptimize(recognise(surface));
+}
+
 void evaluation(benchmark::State& state) {
     const NurbsSurface surface = support::smooth_bicubic(20, seed);
     for (auto _ : state)
@@ -69,6 +107,11 @@ BENCHMARK(smooth)->Arg(8)->Arg(16)->Arg(20)->Arg(64)->Unit(benchmark::kMilliseco
 BENCHMARK(rough)->Arg(8)->Arg(16)->Arg(20)->Arg(64)->Unit(benchmark::kMillisecond);
 BENCHMARK(rational_smooth)->Arg(20)->Unit(benchmark::kMillisecond);
 BENCHMARK(rational_rough)->Arg(20)->Unit(benchmark::kMillisecond);
+BENCHMARK(line)->Unit(benchmark::kMillisecond);
+BENCHMARK(planar_part)->ArgName("inside")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(plane)->Unit(benchmark::kMillisecond);
+BENCHMARK(sphere)->Unit(benchmark::kMillisecond);
+BENCHMARK(recognition)->ArgName("sphere")->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace umbilic

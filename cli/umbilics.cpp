@@ -10,6 +10,7 @@
 #include <cli/commands.h>
 #include <cli/console.h>
 #include <cli/exit_status.h>
+#include <cli/lines_and_regions_text.h>
 #include <cli/loading.h>
 #include <report/json.h>
 #include <report/json_geometry.h>
@@ -143,7 +144,7 @@ void add_umbilics(CLI::App& application, Session& session, Command& command) {
             const UmbilicCounts counts = count_umbilics(model, found);
             std::string text = bold(printable(base_name(options->path)) + ": " + umbilics_headline(counts)) + "\n" +
                                umbilics_explanation(counts) + "\n\n" + face_lines(model, found) +
-                               umbilic_table(model, found);
+                               umbilic_table(model, found) + lines_and_regions_text(model, found);
             if (with_report) {
                 text += "\nReport: " + (std::filesystem::path(options->report) / "report.html").string() + "\n";
             }

@@ -60,7 +60,6 @@ Json face_umbilics_json(const Face& face, const FaceUmbilics& found) {
         lines.push_back({{"boxes", boxes_json(face, line.boxes)},
                          {"points", std::move(points)},
                          {"parameters", std::move(parameters)},
-                         {"traced", line.traced},
                          {"closed", line.closed},
                          {"ends", {name(line.ends[0]), name(line.ends[1])}},
                          {"length", number_json(line.length)},

@@ -9,6 +9,7 @@
 #include <report/json.h>
 
 #include "../support/surfaces.h"
+#include "../support/swept_surfaces.h"
 #include "made_comparison.h"
 
 namespace umbilic {
@@ -143,6 +144,36 @@ TEST(Json, Umbilics) {
         EXPECT_LE(umbilic.at("box").at(0).at(0), umbilic.at("u"));
         EXPECT_GE(umbilic.at("box").at(0).at(1), umbilic.at("u"));
     }
+    expect_finite(json);
+}
+
+TEST(Json, LinesAndRegionsOfUmbilics) {
+    // A flat plate with a ridge on one side, and a developable with an inflection.
+    const NurbsSurface flat = support::smooth_bicubic(12, 1, 0.0);
+    std::vector<Vector3> poles = flat.poles();
+    for (std::size_t k = 0; k < 24; ++k) poles[k].z() = 0.1;
+    const auto wave = support::spline(3, {{0, 0}, {1, 1}, {2, -1}, {3, 0}});
+    const Model model = model_of({NurbsSurface(flat.u_knots(), flat.v_knots(), poles), support::extruded(wave, 2.0)});
+    const Json json = umbilics_json(model, find_umbilics(model));
+    const Json& region = json.at("faces").at(0).at("regions").at(0);
+    EXPECT_EQ(region.at("kind"), "planar");
+    expect_keys(region, {{"boxes/0/0/1", "number"},
+                         {"border", "array"},
+                         {"area", "number"},
+                         {"deviation", "number"},
+                         {"parameters/axis/2", "number"},
+                         {"boundary/0/points/0/2", "number"},
+                         {"boundary/0/parameters/0/1", "number"}});
+    const Json& line = json.at("faces").at(1).at("lines").at(0);
+    expect_keys(line, {{"boxes/0/0/1", "number"},
+                       {"points/0/2", "number"},
+                       {"parameters/0/1", "number"},
+                       {"closed", "boolean"},
+                       {"length", "number"},
+                       {"accuracy", "number"},
+                       {"containment", "string"}});
+    EXPECT_EQ(line.at("ends"), Json::parse(R"(["border", "border"])"));
+    EXPECT_NEAR(line.at("length").get<double>(), 2.0, 1e-12);
     expect_finite(json);
 }
 

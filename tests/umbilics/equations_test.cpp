@@ -36,10 +36,37 @@ TEST(UmbilicEquations, CollapsedEdgesAreSeen) {
     EXPECT_FALSE(equations.singular(PatchEdge::u_high));
     equations.form_umbilic();
     const int before = equations.a().v_degree;
-    equations.divide_by_singular_edges();
+    equations.divide_by_edges({false, false, false, true});
     EXPECT_LT(equations.a().v_degree, before);
     // The pole of a triaxial ellipsoid is no umbilic: the divided forms do not vanish together on the edge.
-    EXPECT_GT(std::max(edge_magnitude(equations.a(), PatchEdge::v_high), edge_magnitude(equations.b(), PatchEdge::v_high)), 1e-3);
+    EXPECT_GT(
+        std::max(edge_magnitude(equations.a(), PatchEdge::v_high), edge_magnitude(equations.b(), PatchEdge::v_high)),
+        1e-3);
+}
+
+TEST(UmbilicEquations, UmbilicEdgesAreSeen) {
+    // A bicubic plate, flat but for the control points i >= 4: flat on the first of its spans, next to which B vanishes
+    // once and A twice.
+    const NurbsSurface flat = support::smooth_bicubic(6, 1, 0.0);
+    std::vector<Vector3> poles = flat.poles();
+    for (int i = 4; i < 6; ++i)
+        for (int j = 0; j < 6; ++j) poles[i * 6 + j].z() = 0.1 + 0.02 * j * j;
+    const NurbsSurface surface(flat.u_knots(), flat.v_knots(), poles);
+    const BezierPatches patches = bezier_patches(surface);
+    UmbilicEquations equations;
+    const auto form = [&](int i) {
+        equations.form_fundamental(patches.patches[i * patches.v_count + 1], input_rounding(surface));
+        equations.form_umbilic();
+    };
+    form(0);
+    for (const PatchEdge edge : {PatchEdge::u_low, PatchEdge::u_high, PatchEdge::v_low, PatchEdge::v_high})
+        EXPECT_FALSE(equations.umbilic(edge));
+    form(1);
+    EXPECT_TRUE(equations.umbilic(PatchEdge::u_low));
+    EXPECT_FALSE(equations.umbilic(PatchEdge::u_high));
+    EXPECT_FALSE(equations.umbilic(PatchEdge::v_low));
+    equations.divide_by_edges({true, false, false, false});
+    EXPECT_GT(edge_magnitude(equations.b(), PatchEdge::u_low), 1e-6);
 }
 
 }  // namespace

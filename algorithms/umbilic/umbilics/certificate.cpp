@@ -238,6 +238,8 @@ Certificate certify(const BorderWinding& winding, const FaceUmbilics& found) {
         certificate.why = "not evaluated: there are umbilic regions";
     else if (!found.lines.empty())
         certificate.why = "not evaluated: there are lines of umbilics";
+    else if (found.statistics.budget_exhausted)
+        certificate.why = "not evaluated: the search used up its boxes";
     else if (!winding.turns)
         certificate.why = "not evaluated: " + winding.why;
     else if (unknown)

@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numeric>
+#include <map>
 
-#include <Eigen/Geometry>
-
-#include <umbilic/differential/curvature.h>
+#include <umbilic/bernstein/box_clusters.h>
+#include <umbilic/umbilics/lines.h>
+#include <umbilic/umbilics/regions.h>
 #include <umbilic/umbilics/winding.h>
 
 namespace umbilic {
@@ -19,50 +18,28 @@ namespace {
 constexpr double line_length = 8.0;
 /// Boxes whose gap is below this share of the domain touch; box ends differ by roundings only.
 constexpr double touching = 1e-12;
-/// Curvature times the region's diagonal below which a region is planar, and relative spread of curvature below which
-/// it is spherical.
-constexpr double curvature_spread = 1e-6;
+/// A patch is umbilic everywhere if it is so within rounding on this share of it.
+constexpr double zero_share = 0.5;
+/// Open boxes within this many resolutions of a region belong to its border.
+constexpr double border_width = 4.0;
 /// Heaps with a diameter below this many resolutions of the surface's box are a single point (a pole).
 constexpr double point_like = 4.0;
 /// Distances of the ways around a cluster that are tried, in resolutions.
 constexpr std::array<double, 5> ring_margins = {0.01, 0.1, 1.0, 4.0, 16.0};
-/// Boxes in which the curvature of a region is looked at.
-constexpr std::size_t curvature_samples = 64;
 
-std::vector<std::vector<std::size_t>> heaps(const std::vector<OpenPart>& parts, const ParameterBox& domain) {
-    std::vector<std::size_t> parent(parts.size()), order(parts.size());
-    std::iota(parent.begin(), parent.end(), 0);
-    std::iota(order.begin(), order.end(), 0);
-    const auto root = [&](std::size_t k) {
-        while (parent[k] != k) k = parent[k] = parent[parent[k]];
-        return k;
-    };
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return parts[a].box.u.low < parts[b].box.u.low; });
-    const double u_gap = touching * domain.u.length(), v_gap = touching * domain.v.length();
-    std::vector<std::size_t> active;
-    for (const std::size_t k : order) {
-        const ParameterBox& box = parts[k].box;
-        std::erase_if(active, [&](std::size_t other) { return parts[other].box.u.high < box.u.low - u_gap; });
-        for (const std::size_t other : active) {
-            const ParameterInterval& v = parts[other].box.v;
-            if (v.low <= box.v.high + v_gap && box.v.low <= v.high + v_gap) {
-                const std::size_t a = root(k), b = root(other);
-                parent[std::max(a, b)] = std::min(a, b);
-            }
-        }
-        active.push_back(k);
+/// Boxes that touch, joined.
+std::vector<std::vector<ParameterBox>> heaps(const std::vector<ParameterBox>& boxes, const ParameterBox& domain) {
+    std::vector<Interval> sides;
+    for (const ParameterBox& box : boxes) {
+        const auto relative = [](const ParameterInterval& part, const ParameterInterval& whole) {
+            return Interval((part.low - whole.low) / whole.length(), (part.high - whole.low) / whole.length());
+        };
+        sides.push_back(relative(box.u, domain.u));
+        sides.push_back(relative(box.v, domain.v));
     }
-    std::vector<std::vector<std::size_t>> result;
-    std::vector<std::size_t> number(parts.size(), parts.size());
-    for (std::size_t k = 0; k < parts.size(); ++k) {
-        const std::size_t r = root(k);
-        if (number[r] == parts.size()) {
-            number[r] = result.size();
-            result.emplace_back();
-        }
-        result[number[r]].push_back(k);
-    }
+    const BoxClusters clusters = cluster_boxes(sides, 2, touching);
+    std::vector<std::vector<ParameterBox>> result(clusters.count);
+    for (std::size_t k = 0; k < boxes.size(); ++k) result[clusters.cluster[k]].push_back(boxes[k]);
     return result;
 }
 
@@ -75,71 +52,59 @@ ParameterBox hull(const std::vector<ParameterBox>& boxes) {
     return result;
 }
 
-std::vector<Vector3> centre_points(const NurbsSurface& surface, const std::vector<ParameterBox>& boxes) {
+std::vector<Vector3> corner_points(const NurbsSurface& surface, const std::vector<ParameterBox>& boxes) {
     std::vector<Vector3> result;
-    result.reserve(boxes.size());
-    for (const ParameterBox& box : boxes) result.push_back(surface.value(box.u.middle(), box.v.middle()));
+    for (const ParameterBox& box : boxes)
+        for (const double u : {box.u.low, box.u.high})
+            for (const double v : {box.v.low, box.v.high}) result.push_back(surface.value(u, v));
     return result;
 }
 
-/// The points in the order of a walk from the one with the farthest partner to the nearest not yet visited.
-std::vector<Vector3> chained(std::vector<Vector3> points) {
-    std::size_t start = 0;
-    double farthest = -1.0;
-    for (std::size_t k = 0; k < points.size(); ++k)
-        if (const double distance = (points[k] - points[0]).squaredNorm(); distance > farthest) {
-            farthest = distance;
-            start = k;
-        }
-    std::swap(points[0], points[start]);
-    for (std::size_t k = 1; k < points.size(); ++k) {
-        const auto nearest =
-            std::min_element(points.begin() + k, points.end(), [&](const Vector3& a, const Vector3& b) {
-                return (a - points[k - 1]).squaredNorm() < (b - points[k - 1]).squaredNorm();
-            });
-        std::iter_swap(points.begin() + k, nearest);
+/// Number of the patch that holds a box.
+std::size_t patch_of(const NurbsSurface& surface, const BezierPatches& patches, const ParameterBox& box) {
+    return static_cast<std::size_t>(surface.u_knots().piece(box.u.middle())) * patches.v_count +
+           static_cast<std::size_t>(surface.v_knots().piece(box.v.middle()));
+}
+
+/// Patches that are umbilic everywhere, increasing. A polynomial that vanishes on an open set vanishes everywhere;
+/// small boxes in which it only is below rounding belong to lines and points at which it has a high order.
+std::vector<std::size_t> umbilic_patches(const NurbsSurface& surface, const BezierPatches& patches,
+                                         const std::vector<OpenPart>& parts) {
+    std::map<std::size_t, double> share;
+    for (const OpenPart& part : parts) {
+        if (!part.zero) continue;
+        const std::size_t k = patch_of(surface, patches, part.box);
+        const ParameterBox& whole = patches.patches[k].domain;
+        share[k] += part.box.u.length() / whole.u.length() * (part.box.v.length() / whole.v.length());
     }
-    return points;
-}
-
-/// Area of a box within one span in each direction.
-double span_area(const NurbsSurface& surface, const ParameterBox& box) {
-    // Gauss-Legendre rule with four nodes per direction, on parts of the box if the integrand is not a polynomial.
-    constexpr std::array<double, 4> node = {-0.861136311594052575, -0.339981043584856265, 0.339981043584856265,
-                                            0.861136311594052575};
-    constexpr std::array<double, 4> weight = {0.347854845137453857, 0.652145154862546143, 0.652145154862546143,
-                                              0.347854845137453857};
-    const int parts = surface.rational() ? 4 : 1;
-    const double du = box.u.length() / parts, dv = box.v.length() / parts;
-    double sum = 0.0;
-    for (int a = 0; a < parts; ++a)
-        for (int b = 0; b < parts; ++b)
-            for (int i = 0; i < 4; ++i)
-                for (int j = 0; j < 4; ++j) {
-                    const SurfaceDerivatives d = surface.derivatives(box.u.low + (a + 0.5 + 0.5 * node[i]) * du,
-                                                                     box.v.low + (b + 0.5 + 0.5 * node[j]) * dv, 1);
-                    sum += weight[i] * weight[j] * d.r_u().cross(d.r_v()).norm();
-                }
-    return 0.25 * sum * du * dv;
-}
-
-std::vector<ParameterInterval> pieces(const KnotVector& knots, const ParameterInterval& interval) {
-    std::vector<ParameterInterval> result;
-    double low = interval.low;
-    for (const double knot : knots.breaks())
-        if (low < knot && knot < interval.high) {
-            result.push_back({low, knot});
-            low = knot;
-        }
-    result.push_back({low, interval.high});
+    std::vector<std::size_t> result;
+    for (const auto& [patch, covered] : share)
+        if (covered >= zero_share) result.push_back(patch);
     return result;
 }
 
-double area(const NurbsSurface& surface, const ParameterBox& box) {
-    double sum = 0.0;
-    for (const ParameterInterval& u : pieces(surface.u_knots(), box.u))
-        for (const ParameterInterval& v : pieces(surface.v_knots(), box.v)) sum += span_area(surface, {u, v});
-    return sum;
+/// Moves the boxes that lie beside pieces of regions to those regions' borders; returns the others.
+std::vector<ParameterBox> take_borders(const NurbsSurface& surface, std::vector<ParameterBox> boxes, double resolution,
+                                       std::vector<UmbilicRegion>& regions) {
+    const ParameterBox domain = surface.domain();
+    const double u_gap = border_width * resolution * domain.u.length();
+    const double v_gap = border_width * resolution * domain.v.length();
+    const auto beside = [&](const ParameterBox& box, const ParameterBox& piece) {
+        return box.u.low <= piece.u.high + u_gap && piece.u.low <= box.u.high + u_gap &&
+               box.v.low <= piece.v.high + v_gap && piece.v.low <= box.v.high + v_gap;
+    };
+    std::vector<ParameterBox> left;
+    for (const ParameterBox& box : boxes) {
+        const auto region = std::find_if(regions.begin(), regions.end(), [&](const UmbilicRegion& candidate) {
+            return std::any_of(candidate.boxes.begin(), candidate.boxes.end(),
+                               [&](const ParameterBox& piece) { return beside(box, piece); });
+        });
+        if (region == regions.end())
+            left.push_back(box);
+        else
+            region->border.push_back(box);
+    }
+    return left;
 }
 
 std::optional<double> cluster_index(const NurbsSurface& surface, const BezierPatches& patches,
@@ -175,70 +140,44 @@ std::optional<double> cluster_index(const NurbsSurface& surface, const BezierPat
 
 }  // namespace
 
-UmbilicRegion make_region(const NurbsSurface& surface, const std::vector<ParameterBox>& boxes) {
-    UmbilicRegion region;
-    region.boxes = boxes;
-    for (const ParameterBox& box : boxes) region.area += area(surface, box);
-    double lowest = 0.0, highest = 0.0;
-    BoundingBox extent;
-    bool first = true;
-    const std::size_t stride = std::max<std::size_t>(1, boxes.size() / curvature_samples);
-    for (std::size_t k = 0; k < boxes.size(); k += stride)
-        for (const double s : {0.25, 0.75})
-            for (const double t : {0.25, 0.75}) {
-                const Curvature c = curvature(surface, boxes[k].u.low + s * boxes[k].u.length(),
-                                              boxes[k].v.low + t * boxes[k].v.length());
-                if (!c.regular) continue;
-                extent.add(c.point);
-                lowest = first ? c.kappa_min : std::min(lowest, c.kappa_min);
-                highest = first ? c.kappa_max : std::max(highest, c.kappa_max);
-                first = false;
-            }
-    const double largest = std::max(std::abs(lowest), std::abs(highest));
-    if (first)
-        region.kind = UmbilicRegionKind::other;
-    else if (largest * extent.diagonal() <= curvature_spread)
-        region.kind = UmbilicRegionKind::planar;
-    else if (highest - lowest <= curvature_spread * largest)
-        region.kind = UmbilicRegionKind::spherical;
-    return region;
-}
-
 void sort_open_parts(const NurbsSurface& surface, const BezierPatches& patches, const InputRounding& input,
                      const std::vector<OpenPart>& parts, const UmbilicOptions& options, FaceUmbilics& result) {
+    const std::vector<std::size_t> whole = umbilic_patches(surface, patches, parts);
+    std::vector<ParameterBox> boxes, pieces;
+    for (const std::size_t k : whole) pieces.push_back(patches.patches[k].domain);
+    for (const OpenPart& part : parts)
+        if (!std::binary_search(whole.begin(), whole.end(), patch_of(surface, patches, part.box)))
+            boxes.push_back(part.box);
+    if (!pieces.empty()) {
+        result.regions = make_regions(surface, pieces);
+        boxes = take_borders(surface, std::move(boxes), options.resolution, result.regions);
+    }
+
     const ParameterBox domain = surface.domain();
     const double size = surface.pole_box().diagonal();
-    for (const std::vector<std::size_t>& heap : heaps(parts, domain)) {
-        std::vector<ParameterBox> boxes, zero_boxes;
-        for (const std::size_t k : heap) {
-            boxes.push_back(parts[k].box);
-            if (parts[k].zero) zero_boxes.push_back(parts[k].box);
-        }
-        if (!zero_boxes.empty()) {
-            // The undecided seam around the region is part of it within the resolution, but not of its area.
-            UmbilicRegion region = make_region(surface, zero_boxes);
-            for (const std::size_t k : heap)
-                if (!parts[k].zero) region.border.push_back(parts[k].box);
-            result.regions.push_back(std::move(region));
-            continue;
-        }
-        const ParameterBox extent = hull(boxes);
+    const auto elongated = [&](const std::vector<ParameterBox>& heap) {
+        const ParameterBox extent = hull(heap);
         const double length = std::max(extent.u.length() / domain.u.length(), extent.v.length() / domain.v.length());
-        if (length > line_length * options.resolution) {
-            std::vector<Vector3> points = centre_points(surface, boxes);
-            BoundingBox box;
-            for (const Vector3& point : points) box.add(point);
-            if (box.diagonal() > point_like * options.resolution * size || boxes.size() == 1) {
-                UmbilicLine line;
-                line.boxes = std::move(boxes);
-                line.points = chained(std::move(points));
-                result.lines.push_back(std::move(line));
-                continue;
-            }
-        }
-        result.undecided.push_back(
-            {std::move(boxes), cluster_index(surface, patches, input, parts, extent, options, result)});
+        if (length <= line_length * options.resolution) return false;
+        BoundingBox box;
+        for (const Vector3& point : corner_points(surface, heap)) box.add(point);
+        return box.diagonal() > point_like * options.resolution * size;
+    };
+    const auto undecided = [&](std::vector<ParameterBox> heap) {
+        const std::optional<double> index = cluster_index(surface, patches, input, parts, hull(heap), options, result);
+        result.undecided.push_back({std::move(heap), index});
+    };
+    // Lines are traced through all heaps before they are joined across seams.
+    std::vector<ParameterBox> through_lines;
+    for (std::vector<ParameterBox>& heap : heaps(boxes, domain)) {
+        if (elongated(heap))
+            through_lines.insert(through_lines.end(), heap.begin(), heap.end());
+        else
+            undecided(std::move(heap));
     }
+    if (through_lines.empty()) return;
+    result.lines = trace_lines(surface, through_lines, options.resolution);
+    for (std::vector<ParameterBox>& heap : heaps(through_lines, domain)) undecided(std::move(heap));
 }
 
 }  // namespace umbilic

@@ -14,13 +14,11 @@ struct OpenPart {
     bool zero = false;  ///< umbilic everywhere within the input's rounding
 };
 
-/// Joins open boxes that touch and tells what each heap is: a region (some box is umbilic everywhere), a line (long
-/// beside `options.resolution`) or an undecided cluster, whose index is told by the winding around it where that can be
-/// evaluated. Appends to `result`, whose umbilics are complete.
+/// Tells what the open boxes are: patches that are umbilic everywhere are regions, with the boxes beside them as their
+/// border; of the others, those that touch are joined. Heaps that are long beside `options.resolution` are lines if
+/// they can be traced as such; the rest are undecided clusters, whose index is told by the winding around them where
+/// that can be evaluated. Appends to `result`, whose umbilics are complete.
 void sort_open_parts(const NurbsSurface& surface, const BezierPatches& patches, const InputRounding& input,
                      const std::vector<OpenPart>& parts, const UmbilicOptions& options, FaceUmbilics& result);
-
-/// Region of the given boxes: its area on the untrimmed surface, and its kind from the curvatures in the boxes.
-UmbilicRegion make_region(const NurbsSurface& surface, const std::vector<ParameterBox>& boxes);
 
 }  // namespace umbilic

@@ -18,9 +18,6 @@ namespace {
 using Array = Eigen::Map<const Eigen::ArrayXd>;
 using Rows = Eigen::Map<const Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
 
-/// Both polynomials below this multiple of the bound from the input's rounding: identically zero. A few ulps, since
-/// control points rarely come from a single rounding.
-constexpr double zero_factor = 4.0;
 /// A preconditioner is used down to this relative determinant: near |omega| = 1 it still helps greatly.
 constexpr double least_relative_determinant = 1e-9;
 /// Above this contraction a box is split rather than proved, as the radius grows with 1 / (1 - r).

@@ -13,6 +13,10 @@
 
 namespace umbilic {
 
+/// Both polynomials below this multiple of the bound from the input's rounding: identically zero. A few ulps, since
+/// control points rarely come from a single rounding.
+inline constexpr double zero_factor = 4.0;
+
 /// A proved simple common zero.
 struct IsolatedZero {
     Vector2 at = Vector2::Zero();

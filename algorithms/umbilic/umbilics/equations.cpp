@@ -8,6 +8,7 @@
 
 #include <umbilic/bernstein/binomials.h>
 #include <umbilic/bernstein/rounding.h>
+#include <umbilic/umbilics/common_zeros.h>
 
 namespace umbilic {
 
@@ -15,9 +16,6 @@ namespace {
 
 constexpr double ulp_of_one = std::numeric_limits<double>::epsilon();
 
-/// A tangent below this multiple of the bound from the input's rounding is zero: a few ulps, since control points
-/// rarely come from a single rounding.
-constexpr double zero_factor = 4.0;
 
 void sum(std::initializer_list<ProductTerm> terms, TensorPolynomial& result) {
     sum_of_products({terms.begin(), terms.size()}, result);
@@ -343,9 +341,15 @@ EdgeEquations UmbilicEquations::edge_equations(PatchEdge edge) const {
     return result;
 }
 
-void UmbilicEquations::divide_by_singular_edges() {
+bool UmbilicEquations::umbilic(PatchEdge edge) const {
+    const bool zero = a_.magnitude <= zero_factor * a_.bound.input && b_.magnitude <= zero_factor * b_.bound.input;
+    return !zero && !singular(edge) && edge_magnitude(a_, edge) <= a_.bound.input &&
+           edge_magnitude(b_, edge) <= b_.bound.input;
+}
+
+void UmbilicEquations::divide_by_edges(const std::array<bool, 4>& edges) {
     for (const PatchEdge edge : {PatchEdge::u_low, PatchEdge::u_high, PatchEdge::v_low, PatchEdge::v_high}) {
-        if (!singular(edge)) continue;
+        if (!edges[static_cast<int>(edge)]) continue;
         const bool across_u = edge == PatchEdge::u_low || edge == PatchEdge::u_high;
         for (TensorPolynomial* polynomial : {&a_, &b_})
             while ((across_u ? polynomial->u_degree : polynomial->v_degree) > 0 &&

@@ -61,11 +61,14 @@ public:
     /// whose control points coincide with those of the next row. A and B are zero there, whatever the surface. Needs
     /// form_fundamental.
     bool singular(PatchEdge edge) const { return singular_[static_cast<int>(edge)]; }
-    /// Divides A and B by the powers of the distance from singular edges that they contain, as far as they vanish
-    /// there within the input's rounding, and raises both to one bidegree again. At a simple pole A contains the fourth
+    /// A and B vanish along an edge that is not singular, within the input's rounding, but not on the whole patch: a
+    /// line of umbilics along a knot line, or the border of a region. Needs form_umbilic.
+    bool umbilic(PatchEdge edge) const;
+    /// Divides A and B by the powers of the distance from these edges that they contain, as far as they vanish there
+    /// within the input's rounding, and raises both to one bidegree again. At a simple pole A contains the fourth
     /// power and B the third; both one more if the pole is umbilic, and still more if its cubic form vanishes.
     /// Needs form_umbilic.
-    void divide_by_singular_edges();
+    void divide_by_edges(const std::array<bool, 4>& edges);
 
 private:
     using Vector3Polynomial = std::array<TensorPolynomial, 3>;

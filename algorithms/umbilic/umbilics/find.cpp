@@ -18,8 +18,10 @@
 #include <umbilic/umbilics/duplicates.h>
 #include <umbilic/umbilics/certificate.h>
 #include <umbilic/umbilics/known_kinds.h>
+#include <umbilic/umbilics/lines.h>
 #include <umbilic/umbilics/patch_search.h>
 #include <umbilic/umbilics/poles.h>
+#include <umbilic/umbilics/regions.h>
 #include <umbilic/umbilics/winding.h>
 
 namespace umbilic {
@@ -229,6 +231,10 @@ FaceUmbilics find_umbilics(const Face& face, const UmbilicOptions& options, cons
         else if (!face.region.whole_domain())
             umbilic.containment = pole_containment(face, umbilic);
     }
+    if (known || face.region.whole_domain()) return result;
+    for (UmbilicLine& line : result.lines) line.containment = containment(face.region, line);
+    for (UmbilicRegion& region : result.regions) trim(face.surface, face.region, region);
+    std::erase_if(result.regions, [](const UmbilicRegion& region) { return region.boundary.empty(); });
     return result;
 }
 

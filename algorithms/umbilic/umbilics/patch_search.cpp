@@ -20,8 +20,9 @@ constexpr double longest_refined = 8.0;
 constexpr long heap_budget = 48000, least_heap_budget = 1500, most_heap_budget = 6000;
 /// Boxes all refinements of one patch may use.
 constexpr long refinement_budget = 30000;
-/// Next to a singular edge, within this part of the patch, the equations divided by the edge's factors are used: they
-/// have a looser bound, but do not vanish on the edge.
+constexpr std::array<bool, 4> undivided{};
+/// Next to a singular or umbilic edge, within this part of the patch, the equations divided by the edge's factors are
+/// used: they have a looser bound, but do not vanish on the edge.
 constexpr double edge_share = 0.125;
 /// A box on which the bound has this share in the polynomials' sizes is open because of the bound.
 constexpr double doubtful = 1e-3;
@@ -30,10 +31,11 @@ constexpr double worthwhile = 0.25;
 
 }  // namespace
 
-void PatchSearch::take_equations(const NurbsSurface& surface, const BezierPatch& patch, bool divided) {
+void PatchSearch::take_equations(const NurbsSurface& surface, const BezierPatch& patch,
+                                 const std::array<bool, 4>& divided) {
     equations_.form_umbilic();
-    if (divided) {
-        equations_.divide_by_singular_edges();
+    if (divided != undivided) {
+        equations_.divide_by_edges(divided);
         zeros_.set_polynomials(equations_.a(), equations_.b());
         return;
     }
@@ -55,35 +57,58 @@ PatchUmbilics PatchSearch::search(const NurbsSurface& surface, const BezierPatch
     }
     if (equations_.excluded_by_hulls()) return result;
     result.formed = true;
-    take_equations(surface, patch, false);
+    take_equations(surface, patch, undivided);
 
+    // Edges next to which the equations are divided by the factors that vanish there.
+    std::array<bool, 4> divided{};
     ParameterBox regular{{0.0, 1.0}, {0.0, 1.0}};
-    std::vector<ParameterBox> strips;
+    std::vector<ParameterBox> strips, umbilic_edges;
+    std::array<bool, 4> umbilic_edge{};
     const auto cut = [&](PatchEdge edge, ParameterInterval ParameterBox::*side, bool low_end) {
-        if (!equations_.singular(edge)) return;
+        const bool umbilic = equations_.umbilic(edge);
+        if (!umbilic && !equations_.singular(edge)) return;
+        divided[static_cast<int>(edge)] = true;
         ParameterBox strip = regular;
         if (low_end)
             (strip.*side).high = (regular.*side).low = (regular.*side).low + edge_share;
         else
             (strip.*side).low = (regular.*side).high = (regular.*side).high - edge_share;
         strips.push_back(strip);
+        umbilic_edge[static_cast<int>(edge)] = umbilic;
+        if (!umbilic) return;
+        // The edge itself: one open box of the smallest width.
+        ParameterBox line{{0.0, 1.0}, {0.0, 1.0}};
+        const double width = side == &ParameterBox::u ? task.limits.u_size : task.limits.v_size;
+        (line.*side) = low_end ? ParameterInterval{0.0, width} : ParameterInterval{1.0 - width, 1.0};
+        umbilic_edges.push_back(line);
     };
     cut(PatchEdge::u_low, &ParameterBox::u, true);
     cut(PatchEdge::u_high, &ParameterBox::u, false);
     cut(PatchEdge::v_low, &ParameterBox::v, true);
     cut(PatchEdge::v_high, &ParameterBox::v, false);
 
+    // Zeros of the divided equations there are points of the edge's line.
+    const auto on_umbilic_edge = [&](const IsolatedZero& zero) {
+        const Vector2 low = zero.at - zero.input_radius, high = zero.at + zero.input_radius;
+        const bool reaches[4] = {low.x() <= 0.0, high.x() >= 1.0, low.y() <= 0.0, high.y() >= 1.0};
+        for (int k = 0; k < 4; ++k)
+            if (umbilic_edge[k] && reaches[k]) return true;
+        return false;
+    };
     zeros_.search(regular, task.limits, progress, result.zeros);
     refine(task, progress, result.zeros);
-    redo_doubtful(surface, patch, input, task, false, progress, result.zeros);
+    redo_doubtful(surface, patch, input, task, undivided, progress, result.zeros);
     if (!strips.empty()) {
-        take_equations(surface, patch, true);
+        take_equations(surface, patch, divided);
         CommonZeros near_edges;
         for (const ParameterBox& strip : strips) zeros_.search(strip, task.limits, progress, near_edges);
         refine(task, progress, near_edges);
-        redo_doubtful(surface, patch, input, task, true, progress, near_edges);
-        for (const IsolatedZero& zero : near_edges.isolated) CommonZeroSearch::add_zero(zero, result.zeros);
-        result.zeros.open.insert(result.zeros.open.end(), near_edges.open.begin(), near_edges.open.end());
+        redo_doubtful(surface, patch, input, task, divided, progress, near_edges);
+        for (const IsolatedZero& zero : near_edges.isolated)
+            if (!on_umbilic_edge(zero)) CommonZeroSearch::add_zero(zero, result.zeros);
+        std::vector<OpenBox>& open = result.zeros.open;
+        open.insert(open.end(), near_edges.open.begin(), near_edges.open.end());
+        for (const ParameterBox& line : umbilic_edges) open.push_back({line, false});
         result.zeros.boxes += near_edges.boxes;
         result.zeros.exhausted = result.zeros.exhausted || near_edges.exhausted;
     }
@@ -137,7 +162,8 @@ void PatchSearch::refine(const PatchTask& task, const Progress& progress, Common
 }
 
 void PatchSearch::redo_doubtful(const NurbsSurface& surface, const BezierPatch& patch, const InputRounding& input,
-                                const PatchTask& task, bool divided, const Progress& progress, CommonZeros& zeros) {
+                                const PatchTask& task, const std::array<bool, 4>& divided, const Progress& progress,
+                                CommonZeros& zeros) {
     const auto in_doubt = [](const OpenBox& open) {
         const bool whole = open.box.u.length() == 1.0 && open.box.v.length() == 1.0;
         return open.doubt > doubtful && !(open.zero && whole);

@@ -38,10 +38,11 @@ public:
                          const PatchTask& task, const Progress& progress);
 
 private:
-    void take_equations(const NurbsSurface& surface, const BezierPatch& patch, bool divided);
+    void take_equations(const NurbsSurface& surface, const BezierPatch& patch, const std::array<bool, 4>& divided);
     void refine(const PatchTask& task, const Progress& progress, CommonZeros& zeros);
     void redo_doubtful(const NurbsSurface& surface, const BezierPatch& patch, const InputRounding& input,
-                       const PatchTask& task, bool divided, const Progress& progress, CommonZeros& zeros);
+                       const PatchTask& task, const std::array<bool, 4>& divided, const Progress& progress,
+                       CommonZeros& zeros);
 
     UmbilicEquations equations_;
     CommonZeroSearch zeros_;

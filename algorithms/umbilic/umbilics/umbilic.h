@@ -115,14 +115,11 @@ struct UmbilicLine {
     std::vector<ParameterBox> boxes;  ///< what the search left open; the line lies in them
     std::vector<Vector2> parameters;  ///< (u, v) of points in order along the line
     std::vector<Vector3> points;      ///< the same in space; the last one is the first one if the line is closed
-    /// The points were traced: each one by Newton's method across the line, with the equations' Jacobian of rank 1.
-    /// Otherwise they are middles of boxes, good to the resolution.
-    bool traced = false;
     bool closed = false;
     std::array<LineEnd, 2> ends = {LineEnd::singular, LineEnd::singular};  ///< at the first and last point
     double length = 0.0;                                                   ///< mm
-    /// Estimate of the distance of `parameters` from the true line, relative to the domain's sides: size of the last
-    /// Newton step and of rounding for a traced line, that of the boxes otherwise.
+    /// Estimate of the distance of `parameters` from the true line, relative to the domain's sides: the last Newton
+    /// step and what is left of the equations.
     double accuracy = 0.0;
     Containment containment = Containment::inside;  ///< boundary: it lies in the face's loops in part
 };
