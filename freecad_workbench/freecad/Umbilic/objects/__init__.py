@@ -5,14 +5,17 @@ The paths of the classes here are written into documents: they never move.
 """
 
 from .comparison import ComparisonProxy, compare_objects, make_comparison
+from .curves import CurvesProxy, make_curves
 from .deviation import DeviationProxy
 from .umbilics import UmbilicsProxy, make_umbilics
 
 __all__ = [
     "ComparisonProxy",
+    "CurvesProxy",
     "DeviationProxy",
     "UmbilicsProxy",
     "compare_objects",
     "make_comparison",
+    "make_curves",
     "make_umbilics",
 ]
