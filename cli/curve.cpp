@@ -69,6 +69,13 @@ std::string face_list(const SurfaceCurve& curve) {
     return text;
 }
 
+std::string end_words(const CurveResult& result, const NamedCurve& named) {
+    const CurveEnd end = named.curve.ended;
+    if (named.left_target) return "the border of the target";
+    if (result.kind == "project" && (end == CurveEnd::length || end == CurveEnd::point)) return "the end of the curve";
+    return end_text(end);
+}
+
 std::string curve_table(const CurveResult& result) {
     if (result.curves.empty()) return "No curve: " + result.why + "\n";
     std::vector<std::vector<std::string>> rows;
@@ -76,7 +83,7 @@ std::string curve_table(const CurveResult& result) {
         const SurfaceCurve& curve = named.curve;
         rows.push_back({named.family.empty() ? "curve" : named.family, readable(curve.length, 8),
                         readable(curve.error, 2), std::to_string(curve.points.size()), face_list(curve),
-                        named.left_target ? "the border of the target" : end_text(curve.ended)});
+                        end_words(result, named)});
     }
     return table({result.kind == "project" ? "projection of" : "curve", "length mm", "error mm", "points", "faces",
                   "it ends at"},

@@ -7,6 +7,13 @@ import pytest
 import umbilic
 
 
+def centre_of_sphere(path):
+    """From points of the sphere: |p|^2 = 2 p.c + (r^2 - |c|^2)."""
+    points, _ = umbilic.read(path).mesh()
+    rows = np.hstack([2 * points, np.ones((len(points), 1))])
+    return np.linalg.lstsq(rows, np.sum(points**2, axis=1), rcond=None)[0][:3]
+
+
 def test_lines_of_curvature_of_a_torus_are_its_circles(models):
     lines = umbilic.line_of_curvature(models / "torus.step", (0.5, 0.7), spacing=1.0)
     assert [line.family for line in lines] == ["maximum", "minimum"]
@@ -22,7 +29,8 @@ def test_geodesics_on_a_sphere_are_both_arcs(models):
     found = umbilic.geodesic(models / "sphere.igs", (0.3, 0.2), to=(1.4, -0.5))
     assert len(found) == 2
     assert found[0].length + found[1].length == pytest.approx(2 * math.pi * 25, rel=1e-8)
-    assert np.linalg.norm(found[0].points, axis=1) == pytest.approx(25, abs=1e-6)
+    distances = np.linalg.norm(found[0].points - centre_of_sphere(models / "sphere.igs"), axis=1)
+    assert distances == pytest.approx(25, abs=1e-6)
     assert found[0].parameters[-1] == pytest.approx([1.4, -0.5])
 
 
@@ -43,9 +51,12 @@ def test_no_geodesic_is_said(models):
 
 
 def test_projection_onto_a_concentric_sphere_is_radial(models):
-    great_circle = 40 * np.array([[math.cos(t), math.sin(t), 0.0] for t in np.linspace(0.1, 2.0, 50)])
+    centre = centre_of_sphere(models / "sphere.igs")
+    great_circle = centre + 40 * np.array([[math.cos(t), math.sin(t), 0.0] for t in np.linspace(0.1, 2.0, 50)])
     projected = umbilic.project(great_circle, models / "sphere.igs")
-    assert np.linalg.norm(projected[0].points, axis=1) == pytest.approx(25, abs=1e-9)
+    offset = projected[0].points - centre
+    assert np.linalg.norm(offset, axis=1) == pytest.approx(25, abs=1e-6)
+    assert offset[-1] == pytest.approx(25 / 40 * (great_circle[-1] - centre), abs=1e-6)
     assert projected[0].length == pytest.approx(25 * 1.9, rel=1e-6)
     both = umbilic.project(models / "sphere.igs", models / "sphere.igs", start=(0.3, 0.2), direction=(0, 0, 1), length=10)
     assert both[0].original.points == pytest.approx(both[0].points, abs=1e-6)

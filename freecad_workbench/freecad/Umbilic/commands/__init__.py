@@ -5,6 +5,7 @@ import FreeCADGui as Gui
 
 from .compare import CompareCommand
 from .curves import GeodesicCommand, LinesOfCurvatureCommand, ProjectCurveCommand
+from .domain import DomainCommand
 from .report import ReportCommand
 from .umbilics import UmbilicsCommand
 
@@ -14,6 +15,7 @@ _COMMANDS = {
     "Umbilic_LinesOfCurvature": LinesOfCurvatureCommand,
     "Umbilic_Geodesic": GeodesicCommand,
     "Umbilic_ProjectCurve": ProjectCurveCommand,
+    "Umbilic_Domain": DomainCommand,
     "Umbilic_Report": ReportCommand,
 }
 NAMES = list(_COMMANDS)

@@ -30,10 +30,18 @@ def summary(result: "umbilic.Curves") -> str:
     if not len(result):
         return f"<p><b>No curve.</b> {result.why[0].upper() + result.why[1:]}.</p>"
     rows = "".join(
-        f"<tr><td>{curve.family or 'projection'}&nbsp;</td><td align='right'>{curve.length:.6g} mm&nbsp;</td>"
-        f"<td>ends at {'the border of the target' if curve.left_target else _ENDS[curve.ended]}</td></tr>"
+        f"<tr><td>{curve.family or 'projection'}&nbsp;</td><td align='right'>{curve.length:.6g}&nbsp;mm&nbsp;</td>"
+        f"<td>ends at {_end(result.kind, curve)}</td></tr>"
         for curve in result)
     return f"<table>{rows}</table>"
+
+
+def _end(kind: str, curve: "umbilic.Curve") -> str:
+    if curve.left_target:
+        return "the border of the target"
+    if kind == "project" and curve.ended in ("length", "point"):
+        return "the end of the curve"
+    return _ENDS[curve.ended]
 
 
 class _CurvesPanel(WorkPanel):

@@ -9,9 +9,10 @@ from typing import Any
 from .comparison_view import ComparisonView
 from .curves_view import CurvesView
 from .deviation_view import DeviationView
+from .nodes_view import NodesView
 from .umbilics_view import UmbilicsView
 
-_VIEWS = {view.__name__: view for view in (ComparisonView, CurvesView, DeviationView, UmbilicsView)}
+_VIEWS = {view.__name__: view for view in (ComparisonView, CurvesView, DeviationView, NodesView, UmbilicsView)}
 
 
 def attach(obj: Any) -> bool:

@@ -34,6 +34,10 @@ CURVES = {
 }
 
 
+NODE = (0.10, 0.10, 0.12)
+"""Of nodes set by hand."""
+
+
 def deviation_colors(deviation: np.ndarray, end: float, signed: bool) -> np.ndarray:
     """Colours (n, 3): viridis from 0 to `end` for the size, blue-white-red from -end to end with the sign."""
     deviation = np.nan_to_num(np.asarray(deviation, dtype=float), nan=end, posinf=end, neginf=-end)

@@ -3,10 +3,9 @@
 
 from typing import Any
 
-from pivy import coin
-
 from .colors import CURVES
-from .view_provider import StoredView, colored, unpickable
+from .line_nodes import add_lines, in_front
+from .view_provider import StoredView, unpickable
 
 
 class CurvesView(StoredView):
@@ -32,21 +31,6 @@ class CurvesView(StoredView):
         if not hasattr(obj, "Result"):
             return  # not all properties are there yet
         self.root.addChild(unpickable())
-        lines = coin.SoAnnotation()  # in front: the triangles of the model cut through lines on its true surface
-        light = coin.SoLightModel()
-        light.model = coin.SoLightModel.BASE_COLOR
-        style = coin.SoDrawStyle()
-        style.lineWidth = vobj.LineWidth
-        coordinates = coin.SoCoordinate3()
-        coordinates.point.setValues(0, len(obj.Points), [tuple(point) for point in obj.Points])
-        for node in (light, style, coordinates):
-            lines.addChild(node)
-        first = 0
-        for family, count in zip(obj.Families, obj.PointCounts):
-            line = coin.SoLineSet()
-            line.startIndex = first
-            line.numVertices.setValues(0, 1, [int(count)])
-            lines.addChild(colored(CURVES[family]))
-            lines.addChild(line)
-            first += int(count)
+        lines = in_front(vobj.LineWidth)
+        add_lines(lines, obj.Points, obj.PointCounts, [CURVES[family] for family in obj.Families])
         self.root.addChild(lines)
