@@ -135,6 +135,10 @@ Vector2 native_parameters(const Face& face, double u, double v) {
     return {face.region.u_map().native(u), face.region.v_map().native(v)};
 }
 
+Vector2 surface_parameters(const Face& face, double native_u, double native_v) {
+    return {face.region.u_map().surface(native_u), face.region.v_map().surface(native_v)};
+}
+
 std::vector<LocatedUmbilic> isolated_umbilics(const PreparedModel& prepared) {
     std::vector<LocatedUmbilic> located;
     for (const Umbilic* umbilic : umbilics_inside(prepared.features.umbilics)) {

@@ -16,6 +16,9 @@ Json complex_json(std::complex<double> value);
 /// (u, v) of the face's own surface in the file, from the parameters of its NURBS form.
 Vector2 native_parameters(const Face& face, double u, double v);
 
+/// The inverse: parameters of the NURBS form.
+Vector2 surface_parameters(const Face& face, double native_u, double native_v);
+
 /// An isolated umbilic and the face it lies on.
 struct LocatedUmbilic {
     const Face* face = nullptr;

@@ -10,6 +10,7 @@ void bind_errors(pybind11::module_& module);
 void bind_model(pybind11::module_& module);
 void bind_umbilics(pybind11::module_& module);
 void bind_wireframe(pybind11::module_& module);
+void bind_curves(pybind11::module_& module);
 void bind_comparison(pybind11::module_& module);
 
 }  // namespace umbilic::python

@@ -21,6 +21,7 @@ except ImportError as error:
 
 from ._native import Cancelled, Error, InvalidInput, NumericFailure, Unsupported
 from .comparisons import Alignment, Answer, Comparison, Match, Mesh, Overlay, Verdict, compare, match, report
+from .curves import Curve, Curves, geodesic, line_of_curvature, project
 from .models import Model, ShapeData, info, read
 from .wireframes import Wireframe, wireframe
 from .umbilical_points import UmbilicMarks, Umbilics, certificate_words, type_words, umbilics
@@ -30,6 +31,8 @@ __all__ = [
     "Answer",
     "Cancelled",
     "Comparison",
+    "Curve",
+    "Curves",
     "Error",
     "InvalidInput",
     "Match",
@@ -45,8 +48,11 @@ __all__ = [
     "Wireframe",
     "certificate_words",
     "compare",
+    "geodesic",
     "info",
+    "line_of_curvature",
     "match",
+    "project",
     "read",
     "report",
     "type_words",

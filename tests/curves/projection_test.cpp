@@ -66,6 +66,20 @@ TEST(Projection, OfAPointIsTheRadialOneOnASphere) {
     EXPECT_THROW(foot_point(sphere, Vector3(not_a_number, 0, 0), {0.5, 0.5}), InvalidInput);
 }
 
+TEST(Projection, FeetOfAPointAreAllFound) {
+    const Model torus = support::model_of({support::full_torus(3.0, 1.0)});
+    // A point in the plane y = x has its feet on both circles that the plane cuts out: two on each.
+    const Vector3 point(2.5, 2.5, 0.4);
+    const std::vector<StationaryPoint> all = feet(torus.faces[0], point);
+    ASSERT_EQ(all.size(), 4u);
+    const double r = std::hypot(2.5, 2.5);
+    const double near = std::hypot(r - 3, 0.4), far = std::hypot(r + 3, 0.4);
+    EXPECT_NEAR(all[0].distance, std::abs(near - 1), 1e-9);
+    EXPECT_NEAR(all[1].distance, near + 1, 1e-9);
+    EXPECT_NEAR(all[2].distance, far - 1, 1e-9);
+    EXPECT_NEAR(all[3].distance, far + 1, 1e-9);
+}
+
 TEST(Projection, OfASpaceCurveOntoASphereIsRadialOnBothSides) {
     const Model model = sphere_model(2.0);
     // A helix about a tilted axis that passes from inside to outside of the sphere: rho changes its sign (T 15).

@@ -10,7 +10,6 @@
 #include <Eigen/Dense>
 
 #include <umbilic/core/errors.h>
-#include <umbilic/curves/closest_point.h>
 #include <umbilic/curves/geodesic_path.h>
 #include <umbilic/differential/curvature.h>
 #include <umbilic/differential/fundamental_forms.h>
@@ -85,7 +84,7 @@ bool orthogonal(const Face& onto, const Vector2& foot, const Vector3& point) {
 }
 
 /// Foot of the start: the one given, made exact, or the closest point of the face.
-Vector2 start_foot(const Face& onto, const Vector3& point, const ProjectionOptions& options) {
+Vector2 start_foot(const Face& onto, const Vector3& point, const ProjectionOptions& options, const Progress& progress) {
     if (!point.allFinite()) throw InvalidInput("projection: the curve's start is not finite");
     const std::string where = "projection onto face " + std::to_string(onto.number);
     Vector2 guess;
@@ -97,15 +96,12 @@ Vector2 start_foot(const Face& onto, const Vector3& point, const ProjectionOptio
                                ": the given foot is not that of the curve's start; leave it out to start from "
                                "the closest point");
     } else {
-        Model model;
-        model.faces.push_back(onto);
-        const std::optional<ClosestPoint> closest = ClosestPointTree(model).closest(point);
-        if (closest) guess = {closest->at.u, closest->at.v};
-        // On a seam or by chance the closest point of a border is a foot, too.
-        if (!closest || (closest->kind != FootKind::interior && !orthogonal(onto, guess, point)))
+        const std::vector<StationaryPoint> all = feet(onto, point, progress);
+        if (all.empty())
             throw InvalidInput(where +
-                               ": the point closest to the curve's start lies on the border and is no "
-                               "orthogonal projection; start elsewhere or give another foot");
+                               ": the curve's start has no orthogonal projection on the face, or a whole curve of "
+                               "them; start elsewhere");
+        guess = {all.front().at.u, all.front().at.v};
     }
     // At a centre of curvature Newton's method has nothing to improve.
     return foot_point(onto.surface, point, guess).value_or(guess);
@@ -195,6 +191,17 @@ std::optional<Vector2> foot_point(const NurbsSurface& surface, const Vector3& po
     return std::nullopt;
 }
 
+std::vector<StationaryPoint> feet(const Face& face, const Vector3& point, const Progress& progress) {
+    std::vector<StationaryPoint> result;
+    for (StationaryPoint& found : find_stationary_points(face.surface, point, {}, progress).points) {
+        const bool inside = face.region.classify(found.at.u, found.at.v) != Containment::outside;
+        if (found.kind != FootKind::interior || !inside) continue;
+        found.at.face = face.number;
+        result.push_back(found);
+    }
+    return result;
+}
+
 SpaceCurve polyline(std::vector<Vector3> points) {
     if (points.size() < 2) throw InvalidInput("projection: a curve needs at least two points");
     std::vector<double> at = {0.0};
@@ -223,7 +230,7 @@ ProjectedCurve project_curve(const SpaceCurve& curve, const Face& onto, const Pr
     if (!curve.at) throw InvalidInput("projection: there is no curve");
     check_length(curve.range.length());
     const Vector3 start = curve.at(curve.range.low).first;
-    const Vector2 foot = start_foot(onto, start, options);
+    const Vector2 foot = start_foot(onto, start, options, progress);
     const double sign = start_sign(onto, foot, start);
     PathSystem system;
     // Where a piece of the curve ends, its derivative is that of the piece before up to the break: steps end there, and
@@ -290,7 +297,7 @@ ProjectedCurve project_line_of_curvature(const Face& from, const Vector2& start,
     if (!first)
         throw InvalidInput("projection of a line of curvature: the start is umbilic, no direction is defined there");
     Vector3 reference = first->dot(direction) < 0.0 ? Vector3(-*first) : *first;
-    const Vector2 foot = start_foot(onto, d.r(), options);
+    const Vector2 foot = start_foot(onto, d.r(), options, progress);
     const double sign = start_sign(onto, foot, d.r());
 
     PathSystem system;
@@ -338,7 +345,7 @@ ProjectedCurve project_geodesic(const Face& from, const Vector2& start, const Ve
     if (!direction.allFinite() || !(along.norm() > regularity * direction.norm()))
         throw InvalidInput("projection: the direction must be finite and have a part in the tangent plane");
     const Vector2 velocity = tangent_components(d, along.normalized());
-    const Vector2 foot = start_foot(onto, d.r(), options);
+    const Vector2 foot = start_foot(onto, d.r(), options, progress);
     const double sign = start_sign(onto, foot, d.r());
     const double size = extent(from);
 
@@ -387,7 +394,7 @@ ProjectedGeodesicBetween project_geodesic_between(const Face& from, const Vector
     check_on_face(from, end, "projection of a geodesic");
     if ((end - start).norm() == 0.0) throw InvalidInput("projection of a geodesic: both points are the same");
     const Vector3 first = from.surface.value(start.x(), start.y());
-    const Vector2 foot = start_foot(onto, first, options);
+    const Vector2 foot = start_foot(onto, first, options, progress);
     const double sign = start_sign(onto, foot, first);
     const BoundaryValueProblem geodesic = geodesic_problem(from, start, end);
     BoundaryValueProblem problem;

@@ -8,6 +8,7 @@
 
 #include <umbilic/core/progress.h>
 #include <umbilic/curves/relaxation.h>
+#include <umbilic/curves/stationary_points.h>
 #include <umbilic/curves/surface_curve.h>
 #include <umbilic/curves/surface_path.h>
 #include <umbilic/model/model.h>
@@ -17,6 +18,11 @@ namespace umbilic {
 /// Orthogonal projection of a point: Newton's method on (r - p).r_u = (r - p).r_v = 0 from a guess (thesis 3.5.2,
 /// (3.20)-(3.24)). Nothing if it does not converge, or to a point outside of the surface's domain.
 std::optional<Vector2> foot_point(const NurbsSurface& surface, const Vector3& point, const Vector2& guess);
+
+/// All feet of a point on a face: the stationary points of the distance inside the surface (find_stationary_points())
+/// that the face's loops do not cut away, nearest first (thesis 3.5.6). A point whose feet fill a curve or a region,
+/// such as a centre of curvature, has those that were told apart. Throws InvalidInput if the point is not finite.
+std::vector<StationaryPoint> feet(const Face& face, const Vector3& point, const Progress& progress = {});
 
 /// A curve in space by any parameter.
 struct SpaceCurve {
@@ -35,7 +41,7 @@ struct ProjectionOptions {
     double tolerance = 1e-9;
     /// Distance along the original between the points returned, in its parameter; 0 for the integration's own steps.
     double spacing = 0.0;
-    /// Foot of the curve's start on the target; the closest point if missing.
+    /// Foot of the curve's start on the target; the nearest of feet() if missing.
     std::optional<Vector2> foot;
     /// Edges over which the projection goes on to other faces, and the original of a geodesic.
     const SmoothJoins* joins = nullptr;

@@ -25,6 +25,17 @@ struct SmoothJoins {
 /// Joins across all edges that bend by at most `largest_bend` radians.
 SmoothJoins smooth_joins(const FaceAdjacency& adjacency, double largest_bend = default_largest_bend);
 
+/// The joins of a model together with the adjacency they refer to.
+struct JoinedFaces {
+    FaceAdjacency adjacency;
+    SmoothJoins joins;
+
+    /// Refers to the model.
+    explicit JoinedFaces(const Model& model) : adjacency(face_adjacency(model)), joins(smooth_joins(adjacency)) {}
+    JoinedFaces(const JoinedFaces&) = delete;
+    JoinedFaces& operator=(const JoinedFaces&) = delete;
+};
+
 /// State of a system of ordinary differential equations on surfaces; components that a system does not use stay 0.
 using PathState = std::array<double, 7>;
 

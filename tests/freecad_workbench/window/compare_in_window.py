@@ -4,35 +4,15 @@
 import os
 import sys
 import time
-import traceback
 
 import FreeCAD as App
 import FreeCADGui as Gui
 import Part
-from PySide import QtCore, QtGui
-from PySide2.QtTest import QTest
+from PySide import QtGui
 
-OUTPUT = os.environ["UMBILIC_OUTPUT"]
-MODELS = os.environ["UMBILIC_MODELS_DIR"]
-
-
-def wait(milliseconds):
-    loop = QtCore.QEventLoop()
-    QtCore.QTimer.singleShot(milliseconds, loop.quit)
-    loop.exec_()
-
-
-def until(condition, what, seconds=240):
-    start = time.time()
-    while not condition():
-        wait(20)
-        if time.time() - start > seconds:
-            raise AssertionError(f"waited {seconds} s for: {what}")
-
-
-def screenshot(name):
-    wait(600)
-    QtGui.QApplication.primaryScreen().grabWindow(0).save(os.path.join(OUTPUT, name + ".png"))
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from steps import (MODELS, OUTPUT, child, click, click_command, close_panel, colors_in, finished, panel, run,
+                   screenshot, wait)
 
 
 def picture(name):
@@ -45,55 +25,6 @@ def picture(name):
     path = os.path.join(OUTPUT, name + ".png")
     view.saveImage(path, 900, 700, "White")
     return QtGui.QImage(path)
-
-
-def click_command(name):
-    """Clicks the command's button in the toolbar."""
-    window = Gui.getMainWindow()
-    for bar in window.findChildren(QtGui.QToolBar):
-        for action in bar.actions():
-            if action.objectName() == name or action.data() == name:
-                until(action.isEnabled, f"{name} to be enabled", 10)
-                QTest.mouseClick(bar.widgetForAction(action), QtCore.Qt.LeftButton)
-                return
-    raise AssertionError(f"no button for {name}")
-
-
-def panel(name):
-    until(lambda: Gui.getMainWindow().findChild(QtGui.QWidget, name), f"panel {name}", 10)
-    return Gui.getMainWindow().findChild(QtGui.QWidget, name)
-
-
-def child(form, kind, name):
-    found = form.findChild(kind, name)
-    assert found is not None, f"{name} is not in the panel"
-    return found
-
-
-def click(form, name, kind=QtGui.QPushButton):
-    QTest.mouseClick(child(form, kind, name), QtCore.Qt.LeftButton)
-
-
-def close_panel():
-    box = next(b for b in Gui.getMainWindow().findChildren(QtGui.QDialogButtonBox) if b.isVisible())
-    QTest.mouseClick(box.button(QtGui.QDialogButtonBox.Close), QtCore.Qt.LeftButton)
-    until(lambda: not Gui.Control.activeDialog(), "the panel to close", 10)
-
-
-def finished(form):
-    run = child(form, QtGui.QPushButton, "run")
-    until(run.isEnabled, "the work to end")
-    return child(form, QtGui.QLabel, "stage").text()
-
-
-def colors_in(image):
-    """Number of pixels that are neither grey nor white."""
-    count = 0
-    for x in range(0, image.width(), 3):
-        for y in range(0, image.height(), 3):
-            color = image.pixelColor(x, y)
-            count += max(color.red(), color.green(), color.blue()) - min(color.red(), color.green(), color.blue()) > 60
-    return count
 
 
 def check_commands_are_there():
@@ -259,30 +190,16 @@ def check_document_written_without_a_window():
     App.closeDocument(document.Name)
 
 
-def go():
-    status = 1
-    try:
-        check_commands_are_there()
-        document = open_models()
-        check_comparison(document)
-        document = check_saving(document)
-        check_view_options(document)
-        check_report(document)
-        check_undo(document)
-        check_cancel_and_errors(document)
-        check_document_written_without_a_window()
-        open(os.path.join(OUTPUT, "passed"), "w").close()
-        status = 0
-    except BaseException:
-        traceback.print_exc()
-        try:
-            screenshot("failed")
-        except BaseException:
-            traceback.print_exc()
-    finally:
-        sys.stdout.flush()
-        sys.stderr.flush()
-        os._exit(status)
+def way(_):
+    check_commands_are_there()
+    document = open_models()
+    check_comparison(document)
+    document = check_saving(document)
+    check_view_options(document)
+    check_report(document)
+    check_undo(document)
+    check_cancel_and_errors(document)
+    check_document_written_without_a_window()
 
 
-QtCore.QTimer.singleShot(0, go)
+run(way)

@@ -4,10 +4,21 @@
 import FreeCADGui as Gui
 
 from .compare import CompareCommand
+from .curves import GeodesicCommand, LinesOfCurvatureCommand, ProjectCurveCommand
+from .domain import DomainCommand
 from .report import ReportCommand
 from .umbilics import UmbilicsCommand
 
-NAMES = ["Umbilic_Compare", "Umbilic_Umbilics", "Umbilic_Report"]
+_COMMANDS = {
+    "Umbilic_Compare": CompareCommand,
+    "Umbilic_Umbilics": UmbilicsCommand,
+    "Umbilic_LinesOfCurvature": LinesOfCurvatureCommand,
+    "Umbilic_Geodesic": GeodesicCommand,
+    "Umbilic_ProjectCurve": ProjectCurveCommand,
+    "Umbilic_Domain": DomainCommand,
+    "Umbilic_Report": ReportCommand,
+}
+NAMES = list(_COMMANDS)
 
-for _name, _command in zip(NAMES, (CompareCommand, UmbilicsCommand, ReportCommand)):
+for _name, _command in _COMMANDS.items():
     Gui.addCommand(_name, _command())

@@ -7,10 +7,12 @@ The paths of the classes here are written into documents: they never move.
 from typing import Any
 
 from .comparison_view import ComparisonView
+from .curves_view import CurvesView
 from .deviation_view import DeviationView
+from .nodes_view import NodesView
 from .umbilics_view import UmbilicsView
 
-_VIEWS = {view.__name__: view for view in (ComparisonView, DeviationView, UmbilicsView)}
+_VIEWS = {view.__name__: view for view in (ComparisonView, CurvesView, DeviationView, NodesView, UmbilicsView)}
 
 
 def attach(obj: Any) -> bool:

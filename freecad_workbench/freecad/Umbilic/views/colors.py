@@ -26,6 +26,18 @@ UMBILICS = {
 }
 
 
+CURVES = {
+    "maximum": (0.835, 0.369, 0.000),
+    "minimum": (0.000, 0.447, 0.698),
+    "geodesic": (0.000, 0.620, 0.451),
+    "projection": (0.800, 0.300, 0.655),
+}
+
+
+NODE = (0.10, 0.10, 0.12)
+"""Of nodes set by hand."""
+
+
 def deviation_colors(deviation: np.ndarray, end: float, signed: bool) -> np.ndarray:
     """Colours (n, 3): viridis from 0 to `end` for the size, blue-white-red from -end to end with the sign."""
     deviation = np.nan_to_num(np.asarray(deviation, dtype=float), nan=end, posinf=end, neginf=-end)

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// `umbilic curve` as its users see it.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "run_command.h"
+
+namespace umbilic {
+namespace {
+
+using nlohmann::json;
+
+json curve(std::vector<std::string> words) {
+    words.insert(words.begin(), "curve");
+    words.insert(words.end(), {"--json", "-"});
+    const CommandResult result = run_umbilic(words);
+    EXPECT_EQ(result.status, 0) << result.error;
+    return json::parse(result.output, nullptr, false);
+}
+
+void expect_error(std::vector<std::string> words, int status, const std::string& about) {
+    words.insert(words.begin(), "curve");
+    const CommandResult result = run_umbilic(words);
+    EXPECT_EQ(result.status, status) << result.error;
+    EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
+    EXPECT_NE(result.error.find(about), std::string::npos) << result.error;
+}
+
+std::string temporary(const std::string& name) {
+    return (std::filesystem::path(testing::TempDir()) / (std::to_string(getpid()) + name)).string();
+}
+
+TEST(CurveCommand, TracesLinesOfCurvature) {
+    const json result = curve(
+        {"lines-of-curvature", model_path("torus.step"), "--face", "1", "--start", "0.5,0.7", "--family", "maximum"});
+    EXPECT_EQ(result["schema"], "umbilic.curve/1");
+    EXPECT_EQ(result["kind"], "lines-of-curvature");
+    ASSERT_EQ(result["curves"].size(), 1u);
+    const json& line = result["curves"][0];
+    EXPECT_EQ(line["family"], "maximum");
+    EXPECT_TRUE(line["closed"].get<bool>());
+    EXPECT_EQ(line["ended"], "closed");
+    EXPECT_NEAR(line["length"].get<double>(), 2 * std::numbers::pi * 12, 1e-4);
+    EXPECT_EQ(line["points"][0]["face"], 1);
+    EXPECT_EQ(line["points"][0]["point"].size(), 3u);
+}
+
+TEST(CurveCommand, FindsGeodesicsAndWritesThemAsWires) {
+    const std::string step = temporary("geodesics.step");
+    const std::vector<std::string> words = {
+        "curve", "geodesic", model_path("sphere.igs"), "--from", "0.3,0.2", "--to", "1.4,-0.5", "-o", step};
+    const CommandResult result = run_umbilic(words);
+    EXPECT_EQ(result.status, 0) << result.error;
+    EXPECT_NE(result.output.find("the shortest of 2 found"), std::string::npos) << result.output;
+    std::ifstream in(step, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    EXPECT_NE(text.find("B_SPLINE_CURVE"), std::string::npos);
+    EXPECT_EQ(text.rfind("ISO-10303-21", 0), 0u);
+    std::filesystem::remove(step);
+
+    const json shot = curve({"geodesic", model_path("sphere.igs"), "--from", "0.3,0.2", "--direction=0,0,-1",
+                             "--length", "10", "--spacing", "1"});
+    EXPECT_NEAR(shot["curves"][0]["length"].get<double>(), 10, 1e-9);
+    EXPECT_EQ(shot["curves"][0]["points"].size(), 11u);
+}
+
+TEST(CurveCommand, SaysThatThereIsNoGeodesic) {
+    const json none = curve({"geodesic", model_path("blade.step"), "--face", "1", "--from", "0.5,0.5", "--to",
+                             "0.5,0.5", "--to-face", "2"});
+    EXPECT_TRUE(none["curves"].empty());
+    EXPECT_NE(none["why"].get<std::string>().find("no geodesic"), std::string::npos);
+}
+
+TEST(CurveCommand, ProjectsItsOwnResultsTablesAndStartedCurves) {
+    const std::string file = temporary("line.json");
+    const std::string source = model_path("monge_umbilics.step");
+    EXPECT_EQ(run_umbilic({"curve", "geodesic", source, "--from", "0.3,0.3", "--direction=1,1,0", "--length", "0.3",
+                           "--json", file})
+                  .status,
+              0);
+    const json again = curve({"project", file, source});
+    EXPECT_EQ(again["kind"], "project");
+    EXPECT_NEAR(again["curves"][0]["length"].get<double>(), 0.3, 1e-5);
+    EXPECT_FALSE(again["curves"][0]["left_target"].get<bool>());
+    std::filesystem::remove(file);
+
+    const std::string table = temporary("points.xyz");
+    std::ofstream(table) << "0.2 0.2 1\n0.4 0.3 1\n0.7 0.6 1\n";
+    EXPECT_EQ(curve({"project", table, source})["curves"].size(), 1u);
+    std::filesystem::remove(table);
+
+    const json between = curve({"project", source, source, "--start", "0.2,0.3", "--to", "0.4,0.5"});
+    ASSERT_EQ(between["curves"].size(), 1u);
+    EXPECT_NEAR(between["curves"][0]["length"].get<double>(), between["curves"][0]["original"]["length"].get<double>(),
+                1e-5);
+}
+
+TEST(CurveCommand, RefusesBadWordsAndInput) {
+    const std::string torus = model_path("torus.step"), bottle = model_path("bottle.step");
+    expect_error({"lines-of-curvature", torus, "--start", "0.5"}, 2, "--start");
+    expect_error({"lines-of-curvature", torus, "--start", "nan,0"}, 2, "--start");
+    expect_error({"lines-of-curvature", torus, "--start", "99,0"}, 2, "outside of face 1");
+    expect_error({"lines-of-curvature", bottle, "--start", "0.5,0.5"}, 2, "--face");
+    expect_error({"lines-of-curvature", bottle, "--face", "9", "--start", "0.5,0.5"}, 2, "no face 9");
+    expect_error({"lines-of-curvature", torus, "--start", "0.5,0.5", "--length", "-1"}, 2, "--length");
+    expect_error({"lines-of-curvature", model_path("sphere.igs"), "--start", "0.5,0.5"}, 3, "umbilic");
+    expect_error({"geodesic", torus, "--from", "0.5,0.5"}, 2, "--to");
+    expect_error({"geodesic", torus, "--from", "0.5,0.5", "--to", "0.5,0.5"}, 3, "the same");
+    expect_error({"geodesic", torus, "--from", "0.5,0.5", "--direction=1,0,0"}, 2, "--length");
+    expect_error({"geodesic", torus, "--from", "0.5,0.5", "--direction=0,0,0", "--length", "1"}, 3, "direction");
+    expect_error({"project", torus, torus, "--start", "0.5,0.5"}, 2, "--direction");
+    expect_error({"project", model_path("ground_truth.json"), torus}, 3, "no result of umbilic curve");
+    expect_error({"project", "/nowhere.xyz", torus}, 3, "/nowhere.xyz");
+}
+
+}  // namespace
+}  // namespace umbilic
