@@ -328,6 +328,18 @@ void Search::cluster_undecided() {
 
 }  // namespace
 
+ParameterInterval placed(const Interval& side, const ParameterInterval& range) {
+    const auto place = [&](double t) { return t == 1.0 ? range.high : range.low + t * range.length(); };
+    return {place(side.low), place(side.high)};
+}
+
+PlacedCoordinate placed(const SystemRoot& root, int unknown, const ParameterInterval& range) {
+    const double inside = std::clamp(root.at[unknown], 0.0, 1.0);
+    const double moved = root.radius[unknown] + std::abs(root.at[unknown] - inside);
+    const double placing = 4 * unit_roundoff * (std::abs(range.low) + std::abs(range.high));
+    return {placed(Interval(inside), range).low, (moved * range.length() + placing) * bound_slack};
+}
+
 SystemRoots solve_projected_polyhedron(std::span<const MultivariatePolynomial> system,
                                        const ProjectedPolyhedronOptions& options, const Progress& progress) {
     return Search(system, options).run(progress);

@@ -6,6 +6,7 @@
 
 #include <umbilic/bernstein/multivariate_polynomial.h>
 #include <umbilic/core/progress.h>
+#include <umbilic/core/types.h>
 
 namespace umbilic {
 
@@ -34,6 +35,16 @@ struct SystemRoot {
     /// the sign could be told.
     int jacobian_sign = 0;
 };
+
+/// A side of a box with [0, 1] mapped onto a parameter interval; both ends of it exactly.
+ParameterInterval placed(const Interval& side, const ParameterInterval& range);
+
+/// One coordinate of a root with [0, 1] mapped onto a parameter interval, clamped to it, and its radius there.
+struct PlacedCoordinate {
+    double at = 0.0;
+    double radius = 0.0;
+};
+PlacedCoordinate placed(const SystemRoot& root, int unknown, const ParameterInterval& range);
 
 /// A box that may hold solutions and is not larger than the tolerance in any direction in which the polynomials vary
 /// notably, or was left over when the budget was spent.

@@ -35,11 +35,6 @@ struct EdgeLine {
     int index = 0;  ///< of the break
 };
 
-ParameterInterval placed(const ParameterInterval& whole, const Interval& part) {
-    const auto place = [&](double t) { return t == 1.0 ? whole.high : whole.low + t * whole.length(); };
-    return {place(part.low), place(part.high)};
-}
-
 class Finder {
 public:
     Finder(const NurbsSurface& surface, const Vector3& point, const StationaryPointsOptions& options)
@@ -147,25 +142,21 @@ Finder::Found Finder::search_patch(const BezierPatch& patch, const Progress& pro
     result.exhausted = roots.statistics.exhausted;
     const std::array<ParameterInterval, 2> domain = {patch.domain.u, patch.domain.v};
     for (const SystemRoot& root : roots.roots) {
-        Vector2 at, radius;
-        bool at_pole = false;
-        for (int k = 0; k < 2; ++k) {
-            const double x = std::clamp(root.at[k], 0.0, 1.0);
-            const double error = root.radius[k] + std::abs(x - root.at[k]);
-            at[k] = placed(domain[k], Interval(x)).low;
-            radius[k] =
-                error * domain[k].length() + 4 * unit_roundoff * (std::abs(domain[k].low) + std::abs(domain[k].high));
-            at_pole = at_pole || (equations.collapsed[2 * k] && x <= error) ||
-                      (equations.collapsed[2 * k + 1] && 1.0 - x <= error);
-        }
+        const PlacedCoordinate u = placed(root, 0, domain[0]), v = placed(root, 1, domain[1]);
+        const auto touches = [&](int k, PatchEdge low, PatchEdge high) {
+            return (equations.collapsed[static_cast<int>(low)] && root.at[k] <= root.radius[k]) ||
+                   (equations.collapsed[static_cast<int>(high)] && 1.0 - root.at[k] <= root.radius[k]);
+        };
+        const bool at_pole =
+            touches(0, PatchEdge::u_low, PatchEdge::u_high) || touches(1, PatchEdge::v_low, PatchEdge::v_high);
         if (at_pole) continue;  // every collapsed edge is reported by itself
-        StationaryPoint found = make_point(at.x(), at.y(), FootKind::interior);
-        found.radius = radius;
+        StationaryPoint found = make_point(u.at, v.at, FootKind::interior);
+        found.radius = {u.radius, v.radius};
         found.certified = true;
         if (root.jacobian_sign < 0) found.type = StationaryType::saddle;
         if (root.jacobian_sign > 0) {
             // Definite: told by the greater diagonal entry, which is far from 0.
-            const SurfaceDerivatives d = surface_.derivatives(at.x(), at.y(), 2);
+            const SurfaceDerivatives d = surface_.derivatives(u.at, v.at, 2);
             const Vector3 gap = d.r() - p_;
             const double uu = (d.r_u().dot(d.r_u()) + gap.dot(d.r_uu())) / d.r_u().squaredNorm();
             const double vv = (d.r_v().dot(d.r_v()) + gap.dot(d.r_vv())) / d.r_v().squaredNorm();
@@ -174,7 +165,7 @@ Finder::Found Finder::search_patch(const BezierPatch& patch, const Progress& pro
         result.points.push_back(std::move(found));
     }
     for (const UndecidedBox& undecided : roots.undecided)
-        result.undecided.push_back({placed(domain[0], undecided.box[0]), placed(domain[1], undecided.box[1])});
+        result.undecided.push_back({placed(undecided.box[0], domain[0]), placed(undecided.box[1], domain[1])});
     for (const PatchEdge edge : {PatchEdge::u_low, PatchEdge::u_high, PatchEdge::v_low, PatchEdge::v_high}) {
         if (!equations.collapsed[static_cast<int>(edge)]) continue;
         const bool stationary = equations.stationary_pole[static_cast<int>(edge)];
@@ -207,18 +198,17 @@ Finder::Found Finder::search_edge(const EdgeLine& line, int piece, const Progres
     result.boxes = roots.statistics.boxes;
     result.exhausted = roots.statistics.exhausted;
     for (const SystemRoot& root : roots.roots) {
-        const double x = std::clamp(root.at[0], 0.0, 1.0);
-        const double t = placed(range, Interval(x)).low;
-        StationaryPoint found = along_v ? make_point(fixed, t, FootKind::edge) : make_point(t, fixed, FootKind::edge);
-        found.radius[along_v ? 1 : 0] = (root.radius[0] + std::abs(x - root.at[0])) * range.length() +
-                                        4 * unit_roundoff * (std::abs(range.low) + std::abs(range.high));
+        const PlacedCoordinate t = placed(root, 0, range);
+        StationaryPoint found =
+            along_v ? make_point(fixed, t.at, FootKind::edge) : make_point(t.at, fixed, FootKind::edge);
+        found.radius[along_v ? 1 : 0] = t.radius;
         found.certified = true;
         if (root.jacobian_sign != 0)
             found.type = root.jacobian_sign > 0 ? StationaryType::minimum : StationaryType::maximum;
         result.points.push_back(std::move(found));
     }
     for (const UndecidedBox& undecided : roots.undecided) {
-        const ParameterInterval part = placed(range, undecided.box[0]), at{fixed, fixed};
+        const ParameterInterval part = placed(undecided.box[0], range), at{fixed, fixed};
         result.undecided.push_back(along_v ? ParameterBox{at, part} : ParameterBox{part, at});
     }
     return result;

@@ -5,17 +5,18 @@
 #include <cmath>
 #include <initializer_list>
 #include <limits>
+#include <string>
 
 #include <umbilic/bernstein/binomials.h>
 #include <umbilic/bernstein/rounding.h>
 #include <umbilic/umbilics/common_zeros.h>
+#include <umbilic/core/errors.h>
 
 namespace umbilic {
 
 namespace {
 
 constexpr double ulp_of_one = std::numeric_limits<double>::epsilon();
-
 
 void sum(std::initializer_list<ProductTerm> terms, TensorPolynomial& result) {
     sum_of_products({terms.begin(), terms.size()}, result);
@@ -324,6 +325,23 @@ void UmbilicEquations::form_umbilic() {
     difference_of_products(e_, m_, f_, l_, a_);
     difference_of_products(e_, n_, g_, l_, b_);
     raise_to_common_degree(a_, b_);
+}
+
+TensorPolynomial UmbilicEquations::discriminant() const {
+    TensorPolynomial a, b, c, result;
+    difference_of_products(e_, m_, f_, l_, a);
+    difference_of_products(e_, n_, g_, l_, b);
+    difference_of_products(f_, n_, g_, m_, c);
+    const int degree = std::max({2 * b.u_degree, 2 * b.v_degree, a.u_degree + c.u_degree, a.v_degree + c.v_degree});
+    if (degree > maximum_product_degree)
+        throw Unsupported("P_N of degree " + std::to_string(degree) + " is above " +
+                          std::to_string(maximum_product_degree) + ": search for umbilics by the certified method");
+    // Times 4: exact.
+    for (double& value : a.scaled) value *= 4.0;
+    a.magnitude *= 4.0;
+    a.bound = {4.0 * a.bound.rounding, 4.0 * a.bound.input};
+    difference_of_products(b, b, a, c, result);
+    return result;
 }
 
 EdgeEquations UmbilicEquations::edge_equations(PatchEdge edge) const {

@@ -46,6 +46,11 @@ public:
     /// Forms A and B and raises both to one bidegree. Needs form_fundamental.
     void form_umbilic();
 
+    /// P_N = B^2 - 4 A C, which is zero at umbilics and positive elsewhere (thesis (2.24), (2.25), (3.44)). Degrees
+    /// (10p - 6, 10q - 6), rational (16p - 10, 16q - 10): below the thesis's. Needs form_fundamental only. Throws
+    /// Unsupported if a degree is above maximum_product_degree.
+    TensorPolynomial discriminant() const;
+
     const TensorPolynomial& a() const { return a_; }
     const TensorPolynomial& b() const { return b_; }
 
