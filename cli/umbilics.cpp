@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -12,56 +13,67 @@
 #include <cli/loading.h>
 #include <report/json.h>
 #include <report/json_geometry.h>
+#include <report/output.h>
 #include <report/readable.h>
+#include <report/umbilics_text.h>
 
 namespace umbilic {
 
 namespace {
 
-std::string complex_text(const std::optional<std::complex<double>>& value) {
-    if (!value) return "-";
-    return readable(value->real()) + (value->imag() < 0.0 ? " − " : " + ") + readable(std::abs(value->imag())) + "i";
-}
-
-std::string certificate_text(const Certificate& certificate) {
-    std::string text = !certificate.complete   ? "completeness "
-                       : *certificate.complete ? "complete: "
-                                               : "not complete: ";
-    text += certificate.why;
-    return text;
-}
-
-std::string face_line(const Face& face, const FaceUmbilics& found) {
-    std::string text = "Face " + std::to_string(face.number) + " (" + name(face.kind) +
-                       "): " + readable_count(found.umbilics.size()) + " isolated, " +
-                       readable_count(found.lines.size()) + " lines, " + readable_count(found.regions.size()) +
-                       " regions, " + readable_count(found.undecided.size()) + " undecided; " +
-                       certificate_text(found.certificate) + "\n";
-    return text;
-}
-
-std::string type_text(const Umbilic& umbilic) {
-    const UmbilicClass& kind = umbilic.kind;
-    std::string text = kind.star == StarKind::none ? "" : std::string(name(kind.star)) + " ";
-    text += name(kind.type);
-    if (umbilic.pole != PoleKind::none) text += ", pole";
-    return text;
+/// Faces that have something of their own to tell, one line each; the others are gathered.
+std::string face_lines(const Model& model, const std::vector<FaceUmbilics>& all) {
+    std::vector<std::pair<std::string, std::string>> lines;
+    for (const FaceUmbilics& found : all) {
+        const Face& face = model.face(found.face);
+        if (!worth_showing(face, found)) continue;
+        std::string text;
+        const auto add = [&](std::size_t count, const char* noun) {
+            if (count > 0) text += (text.empty() ? "" : ", ") + counted(count, noun);
+        };
+        add(found.umbilics.size(), "umbilic");
+        add(found.lines.size(), "line");
+        add(found.regions.size(), "region");
+        add(found.undecided.size(), "undecided place");
+        lines.emplace_back("Face " + std::to_string(face.number), text + "; " + certificate_words(found));
+    }
+    for (const FaceGroup& group : plain_faces(model, all)) {
+        const std::string name = group.faces.size() == 1 ? "Face " + std::to_string(group.faces.front())
+                                                         : counted(group.faces.size(), "face");
+        lines.emplace_back(name, group.words + (group.faces.size() > 1 ? ": " + number_ranges(group.faces) : ""));
+    }
+    return facts(lines);
 }
 
 std::string umbilic_table(const Model& model, const std::vector<FaceUmbilics>& all) {
     std::vector<std::vector<std::string>> rows;
+    bool below_tolerance = false;
+    const auto coordinate = [&](double value) { return readable_coordinate(value, model.box.diagonal()); };
     for (const FaceUmbilics& found : all) {
         const Face& face = model.face(found.face);
         for (const Umbilic& umbilic : found.umbilics) {
             const Vector2 native = native_parameters(face, umbilic.at.u, umbilic.at.v);
+            const UmbilicClass& kind = umbilic.kind;
+            const bool below = umbilic.margin > 0.0 && umbilic.margin < face.tolerance;
+            below_tolerance = below_tolerance || below;
             rows.push_back({std::to_string(face.number), readable(native.x(), 8), readable(native.y(), 8),
-                            type_text(umbilic), readable(umbilic.kappa), complex_text(umbilic.kind.omega),
-                            readable(umbilic.index, 2), umbilic.certified ? "yes" : "no",
-                            umbilic.containment == Containment::outside ? "no" : "yes"});
+                            coordinate(umbilic.point.x()), coordinate(umbilic.point.y()), coordinate(umbilic.point.z()),
+                            type_words(umbilic), umbilic.flat ? "0" : readable(umbilic.kappa), omega_words(kind),
+                            readable(umbilic.index, 2),
+                            umbilic.margin > 0.0 ? readable(umbilic.margin, 2) + (below ? " †" : "") : "–",
+                            umbilic.certified ? "proved" : "not proved",
+                            umbilic.containment == Containment::outside    ? "outside"
+                            : umbilic.containment == Containment::boundary ? "on its border"
+                                                                           : "inside"});
         }
     }
     if (rows.empty()) return "";
-    return "\n" + table({"face", "u", "v", "type", "κ 1/mm", "ω", "index", "proved", "inside"}, rows, {0, 1, 2, 4, 6});
+    return "\n" +
+           table({"face", "u", "v", "x mm", "y mm", "z mm", "type", "κ 1/mm", "ω", "index", "margin mm", "existence",
+                  "face's loops"},
+                 rows, {0, 1, 2, 3, 4, 5, 7, 9, 10}) +
+           "\nMargin: displacement of the control points up to which the type is sure to stay." +
+           (below_tolerance ? " † It is smaller than the tolerance that the file states for the face." : "") + "\n";
 }
 
 }  // namespace
@@ -71,6 +83,7 @@ void add_umbilics(CLI::App& application, Session& session, Command& command) {
         std::string path;
         int face = 0;
         UmbilicOptions search;
+        std::string report;
     };
     auto* const subcommand =
         application.add_subcommand("umbilics", "Every umbilic of every face, with proofs and certificates");
@@ -97,11 +110,16 @@ void add_umbilics(CLI::App& application, Session& session, Command& command) {
                      "Deviation from a plane or sphere, relative to a face's size, within which it is umbilic "
                      "everywhere; 0 finds the umbilics of its ripples")
         ->check(CLI::NonNegativeNumber);
+    subcommand->add_option("--report", options->report, "Folder for report.html and umbilics.json")->type_name("DIR");
     add_common_options(*subcommand, session);
     subcommand->callback([&session, &command, options] {
         command = [&session, options] {
             const Progress& progress = session.progress;
-            const ReadResult read = load(session, options->path, {}, progress.part(0.0, 0.4));
+            const bool with_report = !options->report.empty();
+            if (with_report) check_report_folder(options->report);
+            ReadOptions reading;
+            reading.display_meshes = with_report;
+            const ReadResult read = load(session, options->path, reading, progress.part(0.0, 0.4));
             const Model& model = read.model;
             std::vector<FaceUmbilics> found;
             if (options->face > 0) {
@@ -112,15 +130,25 @@ void add_umbilics(CLI::App& application, Session& session, Command& command) {
                     throw WrongUse(options->path + ": has no face " + std::to_string(options->face) +
                                    "; umbilic info lists its faces");
                 }
-                found.push_back(find_umbilics(*face, options->search, progress.part(0.4, 1.0)));
+                found.push_back(find_umbilics(*face, options->search, progress.part(0.4, with_report ? 0.8 : 1.0)));
             } else {
-                found = find_umbilics(model, options->search, progress.part(0.4, 1.0));
+                found = find_umbilics(model, options->search, progress.part(0.4, with_report ? 0.8 : 1.0));
+            }
+            const Json result = umbilics_json(model, found);
+            if (with_report) {
+                const UmbilicsReportInput input{model, read.meshes, found, options->search, session.command_line};
+                write_umbilics_report(options->report, input, result, progress.part(0.8, 1.0));
             }
             clear_progress_bar();
-            std::string text = bold(printable(options->path)) + "\n";
-            for (const FaceUmbilics& on_face : found) text += face_line(model.face(on_face.face), on_face);
-            print(session, text + umbilic_table(model, found));
-            write_json(session, umbilics_json(model, found));
+            const UmbilicCounts counts = count_umbilics(model, found);
+            std::string text = bold(printable(base_name(options->path)) + ": " + umbilics_headline(counts)) + "\n" +
+                               umbilics_explanation(counts) + "\n\n" + face_lines(model, found) +
+                               umbilic_table(model, found);
+            if (with_report) {
+                text += "\nReport: " + (std::filesystem::path(options->report) / "report.html").string() + "\n";
+            }
+            print(session, text);
+            write_json(session, result);
             return exit_done;
         };
     });

@@ -63,15 +63,15 @@ ColorScale color_scale(double largest, double tolerance) {
 Color color_of(UmbilicType type) {
     switch (type) {
         case UmbilicType::star:
-            return {0.80f, 0.12f, 0.20f};
+            return {0.835f, 0.369f, 0.0f};
         case UmbilicType::lemon:
-            return {0.90f, 0.60f, 0.0f};
+            return {0.0f, 0.447f, 0.698f};
         case UmbilicType::monstar:
-            return {0.55f, 0.20f, 0.65f};
+            return {0.0f, 0.620f, 0.451f};
         case UmbilicType::non_generic:
-            return {0.35f, 0.35f, 0.35f};
+            return {0.45f, 0.45f, 0.45f};
     }
-    return {0.35f, 0.35f, 0.35f};
+    return {0.45f, 0.45f, 0.45f};
 }
 
 std::string hex(const Color& color) {

@@ -47,6 +47,7 @@ std::string report_html(const ReportInput& input, const Progress& progress) {
     page.set("style", page_style());
     page.set("three", page_three());
     page.set("orbit_controls", page_orbit_controls());
+    page.set("stage", page_stage());
     page.set("viewer", page_viewer());
     page.set("scene", scene_json(scene));
     page.set("posed", scene.posed);

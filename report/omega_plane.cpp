@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <report/omega_plane.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <functional>
@@ -9,7 +10,9 @@
 
 #include <fmt/format.h>
 
+#include <report/color_scale.h>
 #include <report/json_geometry.h>
+#include <report/mark.h>
 
 namespace umbilic {
 
@@ -62,17 +65,16 @@ std::string markers(const PreparedModel& prepared, bool of_suspect, bool mirrore
     return out;
 }
 
-}  // namespace
-
-std::string omega_plane_svg(const PreparedModel& original, const PreparedModel& suspect, bool mirrored) {
+/// The element with axes, dividing curves and names, open for markers.
+std::string open_plane(const char* description) {
     const auto circle = [](double t) { return std::polar(1.0, t); };
     const auto gamma_1 = [](double t) { return (2.0 * std::polar(1.0, t) + std::polar(1.0, -2.0 * t)) / 3.0; };
     const auto gamma_2 = [](double t) { return -(2.0 * std::polar(1.0, t) + std::polar(1.0, -2.0 * t)); };
     const double side = 2.0 * half_side;
     std::string svg = fmt::format(
-        "<svg class=\"omega\" viewBox=\"0 0 {0} {0}\" role=\"img\" aria-label=\"Umbilics of both models in the omega "
-        "plane\"><path class=\"axis\" d=\"M0 {1}H{0}M{1} 0V{0}\"/>",
-        side, half_side);
+        "<svg class=\"omega\" viewBox=\"0 0 {0} {0}\" role=\"img\" aria-label=\"{2}\"><path class=\"axis\" d=\"M0 "
+        "{1}H{0}M{1} 0V{0}\"/>",
+        side, half_side, description);
     svg += curve("gamma", gamma_2) + curve("circle", circle) + curve("gamma", gamma_1);
     const auto label = [&](Complex w, const char* text) {
         svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", x_of(w), y_of(w), text);
@@ -83,8 +85,52 @@ std::string omega_plane_svg(const PreparedModel& original, const PreparedModel& 
     label({-0.62, -0.72}, "hyperbolic star");
     label({3.1, 0.1}, "Re ω");
     label({0.35, 3.2}, "Im ω");
-    svg += markers(original, false, false) + markers(suspect, true, mirrored) + "</svg>";
     return svg;
+}
+
+/// The mark at one of the three values of omega; out of range as an arrow at the border, on its ray.
+std::string omega_mark(const OmegaMark& mark, Complex w, bool faint) {
+    const double reach = std::max(std::abs(w.real()), std::abs(w.imag()));
+    const std::string classes = faint ? "faint" : "";
+    std::string svg;
+    if (reach > half_range) {
+        const Complex end = w * ((half_range - 0.05) / reach), start = w * ((half_range - 0.45) / reach);
+        const Complex side = Complex(0.0, 1.0) * (end - start) * 0.25;
+        const Complex barb = end - 0.45 * (end - start);
+        svg += fmt::format(
+            "<path class=\"arrow {}\" stroke=\"{}\" d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}M{:.1f} {:.1f}L{:.1f} "
+            "{:.1f}L{:.1f} "
+            "{:.1f}\"/>",
+            classes, hex(color_of(mark.type)), x_of(start), y_of(start), x_of(end), y_of(end), x_of(barb + side),
+            y_of(barb + side), x_of(end), y_of(end), x_of(barb - side), y_of(barb - side));
+        w = start;
+    } else {
+        const double radius = half_side * mark.uncertainty / half_range;
+        if (!faint && radius > marker)
+            svg += fmt::format("<circle class=\"uncertain\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\"/>", x_of(w),
+                               y_of(w), std::min(radius, 2.0 * half_side));
+        svg += mark_svg(mark.type, x_of(w), y_of(w), marker + 1.0, classes);
+    }
+    if (!faint && !mark.label.empty())
+        svg += fmt::format("<text class=\"number\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", x_of(w) + 11.0, y_of(w) - 6.0,
+                           mark.label);
+    return svg;
+}
+
+}  // namespace
+
+std::string omega_plane_svg(const PreparedModel& original, const PreparedModel& suspect, bool mirrored) {
+    return open_plane("Umbilics of both models in the omega plane") + markers(original, false, false) +
+           markers(suspect, true, mirrored) + "</svg>";
+}
+
+std::string omega_plane_svg(const std::vector<OmegaMark>& marks) {
+    std::string svg = open_plane("Umbilics in the omega plane");
+    for (const bool faint : {true, false})
+        for (const OmegaMark& mark : marks)
+            for (int turn = faint ? 1 : 0; turn < (faint ? 3 : 1); ++turn)
+                svg += omega_mark(mark, mark.omega * std::polar(1.0, 2.0 * std::numbers::pi * turn / 3.0), faint);
+    return svg + "</svg>";
 }
 
 }  // namespace umbilic

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <functional>
 #include <future>
 #include <memory>
 
@@ -71,6 +72,39 @@ fs::path resolved(const std::string& path, const std::string& shown_path) {
     return target.has_filename() ? target : target.parent_path();
 }
 
+/// Makes a folder appear with all of its files at the end. `fill` puts them into a folder beside it: write(name,
+/// contents) for one, or by itself under the given path. Files named in `stale` are of an older report and leave if
+/// nothing new takes their place.
+void write_folder(
+    const std::string& folder, const std::vector<std::string>& stale,
+    const std::function<void(const std::function<void(const char*, const std::string&)>&, const fs::path&)>& fill) {
+    check_report_folder(folder);
+    const fs::path target = resolved(folder, folder);
+    std::error_code error;
+    const bool exists = fs::exists(target, error);
+    fs::create_directories(target.parent_path(), error);
+    if (error) fail(folder, error.value());
+
+    const Temporary assembled(beside(target));
+    fs::create_directory(assembled.path(), error);
+    if (error) fail(folder, error.value());
+    fill(
+        [&](const char* name, const std::string& contents) {
+            write_through(assembled.path() / name, (fs::path(folder) / name).string(), contents);
+        },
+        assembled.path());
+    if (!exists) {
+        fs::rename(assembled.path(), target, error);
+        if (error) fail(folder, error.value());
+        return;
+    }
+    for (const std::string& name : stale) fs::remove(target / name, error);
+    for (const auto& entry : fs::directory_iterator(assembled.path())) {
+        fs::rename(entry.path(), target / entry.path().filename(), error);
+        if (error) fail((fs::path(folder) / entry.path().filename()).string(), error.value());
+    }
+}
+
 }  // namespace
 
 void write_file(const std::string& path, const std::string& contents) {
@@ -95,49 +129,36 @@ void check_report_folder(const std::string& folder) {
 }
 
 void write_report(const std::string& folder, const ReportInput& input, const Json& result, const Progress& progress) {
-    check_report_folder(folder);
-    const fs::path target = resolved(folder, folder);
-    std::error_code error;
-    const bool exists = fs::exists(target, error);
-    fs::create_directories(target.parent_path(), error);
-    if (error) fail(folder, error.value());
-
-    const Temporary assembled(beside(target));
-    fs::create_directory(assembled.path(), error);
-    if (error) fail(folder, error.value());
-    const auto write = [&](const char* name, const std::string& contents) {
-        write_through(assembled.path() / name, (fs::path(folder) / name).string(), contents);
-    };
-    // Written in a child process, so it costs nothing beside the page.
-    std::future<void> aligned;
-    if (input.comparison.alignment.status != AlignmentStatus::not_found) {
-        aligned = std::async(std::launch::async, [&] {
-            const std::string& suspect_file =
-                input.suspect_file.empty() ? input.suspect.model.source.path : input.suspect_file;
-            write_transformed_step(suspect_file, input.comparison.alignment.original_suspect,
-                                   assembled.path() / "aligned.step");
-        });
-    }
-    write("report.html", report_html(input, progress.part(0.0, 0.7)));
-    write("result.json", text(result) + "\n");
-    write("deviation.csv", deviation_csv(input.original.model, input.suspect.model, input.comparison.assessment));
-    if (aligned.valid()) {
-        progress.report(0.75, "writing the aligned suspect");
-        aligned.get();
-    }
-    progress.report(1.0, "report written");
-
-    if (!exists) {
-        fs::rename(assembled.path(), target, error);
-        if (error) fail(folder, error.value());
-        return;
-    }
     // An older report's aligned.step must not stand beside a result that has no pose.
-    fs::remove(target / "aligned.step", error);
-    for (const auto& entry : fs::directory_iterator(assembled.path())) {
-        fs::rename(entry.path(), target / entry.path().filename(), error);
-        if (error) fail((fs::path(folder) / entry.path().filename()).string(), error.value());
-    }
+    write_folder(folder, {"aligned.step"}, [&](const auto& write, const fs::path& assembled) {
+        // Written in a child process, so it costs nothing beside the page.
+        std::future<void> aligned;
+        if (input.comparison.alignment.status != AlignmentStatus::not_found) {
+            aligned = std::async(std::launch::async, [&] {
+                const std::string& suspect_file =
+                    input.suspect_file.empty() ? input.suspect.model.source.path : input.suspect_file;
+                write_transformed_step(suspect_file, input.comparison.alignment.original_suspect,
+                                       assembled / "aligned.step");
+            });
+        }
+        write("report.html", report_html(input, progress.part(0.0, 0.7)));
+        write("result.json", text(result) + "\n");
+        write("deviation.csv", deviation_csv(input.original.model, input.suspect.model, input.comparison.assessment));
+        if (aligned.valid()) {
+            progress.report(0.75, "writing the aligned suspect");
+            aligned.get();
+        }
+        progress.report(1.0, "report written");
+    });
+}
+
+void write_umbilics_report(const std::string& folder, const UmbilicsReportInput& input, const Json& result,
+                           const Progress& progress) {
+    write_folder(folder, {}, [&](const auto& write, const fs::path&) {
+        write("report.html", umbilics_html(input, progress));
+        write("umbilics.json", text(result) + "\n");
+        progress.report(1.0, "report written");
+    });
 }
 
 }  // namespace umbilic

@@ -4,6 +4,7 @@
 #include <string>
 
 #include <report/html.h>
+#include <report/umbilics_html.h>
 
 namespace umbilic {
 
@@ -21,5 +22,10 @@ void check_report_folder(const std::string& folder);
 /// naming the file, if something cannot be written; Cancelled.
 void write_report(const std::string& folder, const ReportInput& input, const Json& result,
                   const Progress& progress = {});
+
+/// The same for the report on the umbilics of one model: report.html and umbilics.json. `result` is the JSON of
+/// umbilics_json().
+void write_umbilics_report(const std::string& folder, const UmbilicsReportInput& input, const Json& result,
+                           const Progress& progress = {});
 
 }  // namespace umbilic

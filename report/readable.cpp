@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <report/readable.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -29,6 +30,18 @@ std::string readable(double value, int digits) {
 std::string readable(double value, const std::string& unit, int digits) {
     const std::string number = readable(value, digits);
     return unit.empty() || unit == "1" || !std::isfinite(value) ? number : number + " " + unit;
+}
+
+std::string readable_coordinate(double value, double size) {
+    if (!(size > 0.0) || !std::isfinite(size) || !std::isfinite(value)) return readable(value, 8);
+    const int decimals = std::clamp(7 - static_cast<int>(std::ceil(std::log10(size))), 0, 15);
+    std::string text = fmt::format("{:.{}f}", value, decimals);
+    if (text.find_first_of("123456789") == std::string::npos) return "0";
+    if (text.find('.') != std::string::npos) {
+        text.erase(text.find_last_not_of('0') + 1);
+        if (text.back() == '.') text.pop_back();
+    }
+    return text.front() == '-' ? "−" + text.substr(1) : text;
 }
 
 std::string readable_percent(double share) {

@@ -13,6 +13,9 @@ std::string readable(double value, int digits = 4);
 /// The same with a unit, e.g. "0.0346 mm"; the unit "1" is left out.
 std::string readable(double value, const std::string& unit, int digits = 4);
 
+/// A coordinate (mm) of a model of the given size to a ten-millionth of that size: what is smaller is 0.
+std::string readable_coordinate(double value, double size);
+
 /// A share in [0, 1] as a percentage that never rounds up to 100 % or down to 0 %.
 std::string readable_percent(double share);
 

@@ -1,30 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
-#include <umbilic/model/display_mesh.h>
 #include <umbilic/similarity/compare.h>
 
 #include <report/color_scale.h>
+#include <report/scene_mesh.h>
 
 namespace umbilic {
-
-/// All faces of a model in one triangle mesh, for pictures.
-struct SceneMesh {
-    struct FaceRange {
-        int face = 0;
-        int first_triangle = 0;
-    };
-    std::vector<Vector3> points;
-    std::vector<Vector3> normals;  ///< one per point
-    std::vector<std::array<int, 3>> triangles;
-    std::vector<std::array<int, 2>> edges;  ///< borders of the faces
-    std::vector<FaceRange> faces;           ///< in the order of their triangles
-    std::vector<double> deviation;          ///< signed distance to the other model, mm; empty if there is no pose
-};
 
 /// An isolated umbilic in the picture.
 struct SceneUmbilic {

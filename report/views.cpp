@@ -29,6 +29,9 @@ constexpr double glyph_radius = 5.0;
 /// How far an umbilic's disc stands before its white ring, relative to the diagonal.
 constexpr double ring_depth = 1e-4;
 constexpr double node_radius = 2.6;
+/// Of a line of umbilics, and of the strokes along lines of curvature relative to the diagonal.
+constexpr Color line_color = {0.80f, 0.47f, 0.65f};
+constexpr double line_width = 2.6, stroke_share = 0.03;
 
 BoundingBox box_of(const std::vector<Vector3>& points) {
     BoundingBox box;
@@ -51,6 +54,16 @@ std::vector<View> drawn(std::size_t count, const std::function<View(std::size_t)
     return views;
 }
 
+std::array<std::pair<const char*, ViewAxes>, 4> four_sides() {
+    return {{{"Isometric", isometric_view()}, {"Front", front_view()}, {"Side", side_view()}, {"Top", top_view()}}};
+}
+
+/// A disc with a white ring around it.
+void draw_umbilic(Picture& picture, const Vector3& point, UmbilicType type, const Vector3& toward, double diagonal) {
+    picture.add_disc(point, {1.0f, 1.0f, 1.0f}, glyph_radius + 1.5);
+    picture.add_disc(point + ring_depth * diagonal * toward, color_of(type), glyph_radius);
+}
+
 std::vector<Color> grey_for(const SceneMesh& mesh) {
     return std::vector<Color>(mesh.points.size(), grey);
 }
@@ -62,16 +75,13 @@ std::vector<View> deviation_views(const Scene& scene) {
     std::vector<Color> colors;
     for (const double deviation : scene.suspect.deviation) colors.push_back(scene.scale.of_size(deviation));
     const BoundingBox box = box_of(scene.suspect.points);
-    const std::array<std::pair<const char*, ViewAxes>, 4> sides = {
-        {{"Isometric", isometric_view()}, {"Front", front_view()}, {"Side", side_view()}, {"Top", top_view()}}};
+    const auto sides = four_sides();
     return drawn(sides.size(), [&](std::size_t i) {
         Picture picture(sides[i].second, box, width, height);
         draw(picture, scene.suspect, colors);
         for (const SceneUmbilic& umbilic : scene.umbilics) {
             if (!umbilic.of_suspect) continue;
-            picture.add_disc(umbilic.point, {1.0f, 1.0f, 1.0f}, glyph_radius + 1.5);
-            picture.add_disc(umbilic.point + ring_depth * box.diagonal() * Vector3(sides[i].second.row(2)),
-                             color_of(umbilic.type), glyph_radius);
+            draw_umbilic(picture, umbilic.point, umbilic.type, sides[i].second.row(2), box.diagonal());
         }
         return View{sides[i].first, picture.png()};
     });
@@ -128,6 +138,30 @@ std::vector<View> test_views(const Scene& scene, const Assessment& assessment) {
         return View{std::string(test.name) + ": " + readable_count(beyond) + " of " + readable_count(count) +
                         " nodes beyond " + readable(test.similarity->tolerance, test.unit),
                     picture.png()};
+    });
+}
+
+std::vector<View> umbilics_views(const SceneMesh& mesh, const std::vector<FaceUmbilics>& umbilics) {
+    const auto sides = four_sides();
+    const BoundingBox box = box_of(mesh.points);
+    const std::vector<Color> colors = grey_for(mesh);
+    const double reach = stroke_share * box.diagonal();
+    return drawn(sides.size(), [&](std::size_t i) {
+        Picture picture(sides[i].second, box, width, height);
+        draw(picture, mesh, colors);
+        for (const FaceUmbilics& found : umbilics) {
+            for (const UmbilicLine& line : found.lines)
+                for (std::size_t k = 1; k < line.points.size(); ++k)
+                    picture.add_line(line.points[k - 1], line.points[k], line_color, line_width);
+            for (const Umbilic& umbilic : found.umbilics) {
+                if (umbilic.containment == Containment::outside) continue;
+                for (const Vector3& direction : umbilic.directions)
+                    picture.add_line(umbilic.point - reach * direction, umbilic.point + reach * direction,
+                                     color_of(umbilic.kind.type), edge_width);
+                draw_umbilic(picture, umbilic.point, umbilic.kind.type, sides[i].second.row(2), box.diagonal());
+            }
+        }
+        return View{sides[i].first, picture.png()};
     });
 }
 

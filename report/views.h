@@ -23,6 +23,9 @@ std::vector<View> model_views(const Scene& scene, const SimilarityTransform& sus
 /// One picture a test (distance, kappa_max, kappa_min, direction): nodes within the tolerance and beyond.
 std::vector<View> test_views(const Scene& scene, const Assessment& assessment);
 
+/// A model with its isolated umbilics, lines of umbilics and the directions of lines of curvature, from four sides.
+std::vector<View> umbilics_views(const SceneMesh& mesh, const std::vector<FaceUmbilics>& umbilics);
+
 /// Colours of the nodes in test_views().
 extern const Color color_within;
 extern const Color color_beyond;

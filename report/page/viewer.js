@@ -5,40 +5,10 @@
 
   const scene = JSON.parse(document.getElementById('scene').textContent);
   const figure = document.querySelector('.viewer');
-  const stage = figure.querySelector('.stage');
-  const canvas = figure.querySelector('canvas');
-  const label = figure.querySelector('.label');
-
-  // What paper shows if the reader leaves the page as it is.
-  figure.hidden = false;
-  let renderer;
-  try {
-    renderer = new THREE.WebGLRenderer({ canvas: canvas, antialias: true, alpha: true });
-  } catch (error) {
-    figure.hidden = true;
-    return;
-  }
-  document.documentElement.classList.add('webgl');
-
-  function unpack(text, ArrayType) {
-    const bytes = Uint8Array.from(atob(text), character => character.charCodeAt(0));
-    return new ArrayType(bytes.buffer);
-  }
-
-  function geometryOf(mesh) {
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute('position', new THREE.BufferAttribute(unpack(mesh.points, Float32Array), 3));
-    geometry.setIndex(new THREE.BufferAttribute(unpack(mesh.triangles, Uint32Array), 1));
-    geometry.computeVertexNormals();
-    return geometry;
-  }
-
-  function edgesOf(mesh, geometry) {
-    const edges = new THREE.BufferGeometry();
-    edges.setAttribute('position', geometry.getAttribute('position'));
-    edges.setIndex(new THREE.BufferAttribute(unpack(mesh.edges, Uint32Array), 1));
-    return new THREE.LineSegments(edges, new THREE.LineBasicMaterial({ color: 0x30363d, transparent: true, opacity: 0.8 }));
-  }
+  const stage = makeStage(figure, scene.diagonal || 1);
+  if (!stage) return;
+  const { world, canvas, camera, unpack, geometryOf, edgesOf, render } = stage;
+  const size = scene.diagonal || 1;
 
   function colorsOf(deviation, table, low, high) {
     const parsed = table.map(text => new THREE.Color(text));
@@ -49,16 +19,6 @@
     });
     return new THREE.BufferAttribute(colors, 3);
   }
-
-  const world = new THREE.Scene();
-  const size = scene.diagonal || 1;
-  const camera = new THREE.PerspectiveCamera(30, 1, size / 1000, size * 100);
-  camera.up.set(0, 0, 1);
-  world.add(camera);
-  world.add(new THREE.HemisphereLight(0xffffff, 0xb8bcc4, 0.75));
-  const lamp = new THREE.DirectionalLight(0xffffff, 0.35);
-  lamp.position.set(-0.4, 0.5, 1);
-  camera.add(lamp);
 
   // The suspect, coloured by deviation.
   const suspectGeometry = geometryOf(scene.suspect);
@@ -115,33 +75,10 @@
   });
   world.add(umbilics);
 
-  const controls = new THREE.OrbitControls(camera, canvas);
-  controls.screenSpacePanning = true;
-
-  function render() {
-    renderer.render(world, camera);
-  }
-
   function reset() {
     const box = new THREE.Box3().setFromObject(suspect);
     if (!scene.posed) box.union(new THREE.Box3().setFromObject(original));
-    const sphere = box.getBoundingSphere(new THREE.Sphere());
-    const narrow = Math.min(1, camera.aspect);
-    const distance = 1.05 * sphere.radius / Math.sin(camera.fov * Math.PI / 360) / narrow;
-    controls.target.copy(sphere.center);
-    camera.position.set(1, -1.2, 0.8).normalize().multiplyScalar(distance).add(sphere.center);
-    controls.update();
-    render();
-  }
-
-  function resize() {
-    const width = stage.clientWidth, height = stage.clientHeight;
-    if (!width || !height) return;
-    renderer.setPixelRatio(window.devicePixelRatio || 1);
-    renderer.setSize(width, height, false);
-    camera.aspect = width / height;
-    camera.updateProjectionMatrix();
-    render();
+    stage.look(box);
   }
 
   function box(name) {
@@ -163,17 +100,10 @@
     render();
   }
 
-  function faceAt(mesh, triangle) {
-    const faces = unpack(mesh.faces, Uint32Array);
-    let number = 0;
-    for (let i = 0; i < faces.length && faces[i + 1] <= triangle; i += 2) number = faces[i];
-    return number;
-  }
-
   function nameOf(hit) {
     if (hit.object.userData.text) return hit.object.userData.text;
-    if (hit.object === original) return 'Original, face ' + faceAt(scene.original, hit.faceIndex);
-    const text = 'Suspect, face ' + faceAt(scene.suspect, hit.faceIndex);
+    if (hit.object === original) return 'Original, face ' + stage.faceAt(scene.original, hit.faceIndex);
+    const text = 'Suspect, face ' + stage.faceAt(scene.suspect, hit.faceIndex);
     if (!scene.posed) return text;
     const corners = [hit.face.a, hit.face.b, hit.face.c];
     const nearest = corners.reduce((best, i) => {
@@ -184,29 +114,11 @@
     return text + ', deviation ' + deviation[nearest.i].toPrecision(3) + ' mm';
   }
 
-  const ray = new THREE.Raycaster();
-  function point(event) {
-    const frame = canvas.getBoundingClientRect();
-    const x = event.clientX - frame.left, y = event.clientY - frame.top;
-    ray.setFromCamera(new THREE.Vector2(2 * x / frame.width - 1, 1 - 2 * y / frame.height), camera);
-    const marks = umbilics.visible ? ray.intersectObjects(glyphs) : [];
-    const surfaces = [suspect, original].filter(mesh => mesh.visible);
-    const hit = marks.concat(event.buttons ? [] : ray.intersectObjects(surfaces))[0];
-    label.hidden = !hit;
-    if (!hit) return;
-    label.textContent = nameOf(hit);
-    label.style.left = Math.min(x + 14, frame.width - 230) + 'px';
-    label.style.top = (y + 14) + 'px';
-  }
-
-  controls.addEventListener('change', render);
-  canvas.addEventListener('mousemove', point);
-  canvas.addEventListener('mouseleave', () => { label.hidden = true; });
+  stage.describe(() => umbilics.visible ? glyphs : [], [suspect, original], nameOf);
   figure.querySelectorAll('input').forEach(input => input.addEventListener('change', toggle));
   figure.querySelector('button[name=reset]').addEventListener('click', reset);
-  window.addEventListener('resize', resize);
 
-  resize();
+  stage.resize();
   toggle();
   reset();
 })();

@@ -31,19 +31,21 @@ constexpr double knot_reach = 1e-6;
 constexpr double second_order = 2.0;
 constexpr double greatest_metric_change = 0.1;
 
+double diagonal(const BezierPatch& patch) {
+    BoundingBox box;
+    for (const Vector4& pole : patch.poles) box.add(Vector3(pole.head<3>() / pole[3]));
+    return box.diagonal();
+}
+
 /// Displacement (mm) of the control points that stands for all rounding: of the input, of the weights, and of an
 /// evaluation, which sums (p + 1)(q + 1) products of rounded numbers.
 double rounding_displacement(const BezierPatch& patch, const InputRounding& input) {
     double result = (2 * (patch.u_degree + patch.v_degree) + 5) * input.position;
     if (patch.rational) {
-        BoundingBox box;
         double lightest = patch.poles[0][3];
-        for (const Vector4& pole : patch.poles) {
-            lightest = std::min(lightest, pole[3]);
-            box.add(Vector3(pole.head<3>() / pole[3]));
-        }
+        for (const Vector4& pole : patch.poles) lightest = std::min(lightest, pole[3]);
         // A change of one weight moves the surface as a displacement of its control point towards the surface does.
-        result += input.weight / lightest * box.diagonal();
+        result += input.weight / lightest * diagonal(patch);
     }
     return result;
 }
@@ -65,8 +67,7 @@ public:
     double of(double displacement) const {
         const double sum = at_rest_ + growth_ * displacement, linear = 1 + loss_ * at_rest_;
         const double root = linear * linear - 4 * loss_ * sum;
-        if (!(root >= 0.0) || metric_ * displacement > greatest_metric_change)
-            return std::numeric_limits<double>::infinity();
+        if (!(root >= 0.0)) return std::numeric_limits<double>::infinity();
         return 2 * sum / (linear + std::sqrt(root));
     }
 
@@ -98,7 +99,7 @@ void classify_piece(const SurfaceDerivatives& d, const UmbilicSensitivity& sensi
     const auto [L, M, N] = second_form(d);
     umbilic.kappa = -(E * N + G * L - 2 * F * M) / (2 * (E * G - F * F));
     umbilic.cubic = monge_form(d).cubic;
-    if (!std::isfinite(sensitivity.cubic)) {
+    if (!std::isfinite(sensitivity.cubic) || sensitivity.metric * displacement > greatest_metric_change) {
         umbilic.kappa_error = umbilic.cubic_error = std::numeric_limits<double>::infinity();
         umbilic.kind = classify(umbilic.cubic, 1.0);
         return;
@@ -205,7 +206,8 @@ std::optional<Umbilic> characterise(const NurbsSurface& surface, const BezierPat
                            other);
             cover(result, other);
         }
-    result.flat = std::abs(result.kappa) <= result.kappa_error && std::isfinite(result.kappa_error);
+    // A bound above the curvature of a sphere of the patch's own size says nothing.
+    result.flat = std::abs(result.kappa) <= result.kappa_error && result.kappa_error * diagonal(patch) <= 1.0;
     return result;
 }
 
