@@ -73,40 +73,46 @@ std::string umbilics_headline(const UmbilicCounts& counts) {
 }
 
 std::string umbilics_explanation(const UmbilicCounts& counts) {
-    std::string text;
+    std::vector<std::string> sentences;
     const std::size_t searched = counts.faces - counts.whole;
     const std::size_t open = searched - counts.complete - counts.incomplete;
-    const std::string which = counts.whole > 0 ? "other " : "";
-    if (counts.whole > 0) {
-        text = (counts.whole == 1 ? "1 face is a plane or sphere"
-                                  : readable_count(counts.whole) + " faces are planes or spheres") +
-               std::string(": every point of such a face is an umbilic. ");
-    }
-    if (searched > 0 && searched == counts.complete) {
-        text += counts.isolated + counts.outside == 0 ? "It is proved that there is none on "
-                                                      : "The list is proved to be complete on ";
-        text += searched == 1 ? "the " + which + "face."
-                              : "all of the " + readable_count(searched) + " " + which + "faces.";
-    } else if (searched > 0 && counts.complete == 0 && open == searched) {
-        text += "Whether the list is complete could not be proved on " +
-                (searched == 1 ? "the " + which + "face."
-                               : "any of the " + readable_count(searched) + " " + which + "faces.");
-    } else if (searched > 0) {
-        text += "The list is proved to be complete on " + readable_count(counts.complete) + " of " +
-                readable_count(searched) + " " + which + (searched == 1 ? "face." : "faces.");
-        if (open > 0) text += " On " + readable_count(open) + " that could not be proved.";
+    const auto faces = [&](std::size_t count) {
+        return readable_count(count) + (counts.whole > 0 ? " other" : "") + (count == 1 ? " face" : " faces");
+    };
+    const std::string all =
+        searched == 1 ? (counts.whole > 0 ? "the other face" : "the face") : "all of the " + faces(searched);
+    if (counts.whole > 0)
+        sentences.push_back((counts.whole == 1 ? "1 face is a plane or a sphere"
+                                               : readable_count(counts.whole) + " faces are planes or spheres") +
+                            ": every point of it is an umbilic.");
+    if (searched > 0 && searched == counts.complete)
+        sentences.push_back((counts.isolated + counts.outside == 0 ? "It is proved that there is none on "
+                                                                   : "The list is proved to be complete on ") +
+                            all + ".");
+    else if (searched > 0 && searched == open)
+        sentences.push_back("The list could not be proved to be complete on " +
+                            (searched == 1 ? all : "any of the " + faces(searched)) + ".");
+    else if (searched > 0) {
+        sentences.push_back("The list is proved to be complete on " + readable_count(counts.complete) + " of " +
+                            faces(searched) + ".");
+        if (open > 0) sentences.push_back("On " + readable_count(open) + " that could not be proved.");
     }
     if (counts.incomplete > 0)
-        text += " On " + counted(counts.incomplete, "face") + " the list is known not to be complete.";
+        sentences.push_back("On " + counted(counts.incomplete, "face") + " the list is known not to be complete.");
+
     std::vector<std::string> more;
     if (counts.lines > 0) more.push_back(counted(counts.lines, "line") + " of umbilics");
     if (counts.regions > 0) more.push_back(counted(counts.regions, "region") + " on which every point is an umbilic");
     if (counts.undecided > 0) more.push_back(counted(counts.undecided, "place") + " that could not be decided");
     if (counts.outside > 0)
         more.push_back(counted(counts.outside, "umbilic") + " of the untrimmed surfaces outside of the faces");
-    if (!more.empty())
-        text += " There " + std::string(more.front().rfind("1 ", 0) == 0 ? "is " : "are ") +
-                (counts.isolated > 0 ? "also " : "") + listed(more) + ".";
+    if (!more.empty()) {
+        const bool one = counts.lines + counts.regions + counts.undecided + counts.outside == 1;
+        sentences.push_back(std::string("There ") + (one ? "is " : "are ") + (counts.isolated > 0 ? "also " : "") +
+                            listed(more) + ".");
+    }
+    std::string text;
+    for (const std::string& sentence : sentences) text += (text.empty() ? "" : " ") + sentence;
     return text;
 }
 

@@ -19,11 +19,12 @@ namespace py = pybind11;
 namespace {
 
 std::string find_umbilics_json(const LoadedModel& loaded, std::optional<int> face, std::optional<double> resolution,
-                               const py::object& progress) {
+                               double accuracy, const py::object& progress) {
     return run_interruptible(progress, [&](const Progress& handle) {
         const Model& model = loaded.file.model;
         UmbilicOptions options;
         if (resolution) options.resolution = *resolution;
+        options.accuracy = accuracy;
         std::vector<FaceUmbilics> faces;
         if (face) {
             faces.push_back(find_umbilics(model.face(*face), options, handle));
@@ -38,7 +39,7 @@ std::string find_umbilics_json(const LoadedModel& loaded, std::optional<int> fac
 
 void bind_umbilics(py::module_& module) {
     module.def("umbilics_json", &find_umbilics_json, py::arg("model"), py::arg("face"), py::arg("resolution"),
-               py::arg("progress"));
+               py::arg("accuracy"), py::arg("progress"));
 }
 
 }  // namespace umbilic::python

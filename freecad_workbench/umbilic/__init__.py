@@ -22,8 +22,8 @@ except ImportError as error:
 from ._native import Cancelled, Error, InvalidInput, NumericFailure, Unsupported
 from .comparisons import Alignment, Answer, Comparison, Match, Mesh, Overlay, Verdict, compare, match, report
 from .models import Model, ShapeData, info, read
-from .umbilical_points import UmbilicMarks, Umbilics, umbilics
 from .wireframes import Wireframe, wireframe
+from .umbilical_points import UmbilicMarks, Umbilics, certificate_words, type_words, umbilics
 
 __all__ = [
     "Alignment",
@@ -43,11 +43,13 @@ __all__ = [
     "Unsupported",
     "Verdict",
     "Wireframe",
+    "certificate_words",
     "compare",
     "info",
     "match",
     "read",
     "report",
+    "type_words",
     "umbilics",
     "wireframe",
 ]

@@ -36,6 +36,29 @@ class UmbilicMarks:
         )
 
 
+def type_words(umbilic: Dict[str, Any]) -> str:
+    """The type of an entry for people, with the types that a non-generic one may have."""
+    if umbilic["star"]:
+        return umbilic["star"] + " star"
+    words = umbilic["type"]
+    neighbours = umbilic["neighbours"]
+    if len(neighbours) > 1:
+        words += " (" + ", ".join(neighbours[:-1]) + " or " + neighbours[-1] + ")"
+    return words
+
+
+def certificate_words(face: Dict[str, Any]) -> str:
+    """What is proved about the list of umbilics of a face, for people."""
+    certificate = face["certificate"]
+    if certificate["complete"] is None:
+        return "completeness " + certificate["why"]
+    if not certificate["complete"]:
+        return "not complete: " + certificate["why"]
+    if face["undecided"]:
+        return "complete but for undecided places"
+    return "complete" if face["umbilics"] else "no umbilic, proved"
+
+
 class Umbilics:
     """Every isolated umbilic, umbilic line and umbilic region of a model, face by face."""
 
@@ -70,7 +93,8 @@ class Umbilics:
                 {
                     "point": umbilic["point"],
                     "type": umbilic["type"],
-                    "label": "{type}, face {face}, u {u:.6g}, v {v:.6g}, \u03ba {kappa:.4g} 1/mm".format(**umbilic),
+                    "label": "{words}, face {face}, u {u:.6g}, v {v:.6g}, \u03ba {kappa:.4g} 1/mm".format(
+                        words=type_words(umbilic), **umbilic),
                 }
                 for umbilic in self.isolated
                 if umbilic["inside"]
@@ -90,14 +114,17 @@ def umbilics(
     *,
     face: Optional[int] = None,
     tolerance: Optional[float] = None,
+    accuracy: float = 0.0,
     seconds: float = READING_SECONDS,
     progress: Progress = None,
 ) -> Umbilics:
     """Finds all umbilics of a model, or of its face with the number `face` (from 1).
 
-    `tolerance` is the side of the smallest box of the search relative to the sides of the face's domain. Raises
-    InvalidInput if the model cannot be read or has no such face, and Cancelled.
+    `tolerance` is the side of the smallest box of the search relative to the sides of the face's domain. `accuracy`
+    (mm) says how far control points may be from where they should be: a type that this could change is called
+    "non-generic", with the types it may have as "neighbours". Raises InvalidInput if it is negative, the model cannot be
+    read or has no such face, and Cancelled.
     """
     model = read(source, seconds=seconds, progress=part_of(progress, 0.0, 0.1))
-    found = _native.umbilics_json(model.native, face, tolerance, part_of(progress, 0.1, 1.0))
+    found = _native.umbilics_json(model.native, face, tolerance, accuracy, part_of(progress, 0.1, 1.0))
     return Umbilics(json.loads(found))

@@ -194,6 +194,34 @@ TEST_F(Command, UmbilicsOfOneFaceOrAll) {
     EXPECT_NE(text.output.find("monstar"), std::string::npos);
 }
 
+TEST_F(Command, UmbilicsWriteAWholeReport) {
+    const CommandResult result = run_umbilic(
+        {"umbilics", model_path("monge_umbilics.step"), "--report", path("report"), "--json", path("same.json")});
+    ASSERT_EQ(result.status, 0) << result.error;
+    EXPECT_EQ(entries(),
+              (std::vector<std::string>{"report", "report/report.html", "report/umbilics.json", "same.json"}));
+    EXPECT_EQ(read("report/umbilics.json"), read("same.json"));
+    EXPECT_NE(result.output.find("5 isolated umbilics: 4 stars and 1 monstar"), std::string::npos);
+    EXPECT_NE(result.output.find("complete: every umbilic of this face is listed; proved"), std::string::npos);
+    EXPECT_NE(result.output.find(path("report/report.html")), std::string::npos);
+    for (const json& umbilic : json::parse(read("same.json")).at("faces").at(0).at("umbilics")) {
+        EXPECT_TRUE(umbilic.at("neighbours").empty());
+        EXPECT_GT(umbilic.at("margin").get<double>(), 0.0);
+        EXPECT_EQ(umbilic.at("ridges"), 1);
+        EXPECT_LT(umbilic.at("uncertainty").at("kappa").get<double>(), 1e-9);
+    }
+    const CommandResult rough =
+        run_umbilic({"umbilics", model_path("monge_umbilics.step"), "--accuracy", "0.1", "--json", "-"});
+    for (const json& umbilic : json::parse(rough.output).at("faces").at(0).at("umbilics")) {
+        EXPECT_EQ(umbilic.at("type"), "non-generic");
+        EXPECT_GE(umbilic.at("neighbours").size(), 2u);
+        EXPECT_TRUE(umbilic.at("certified").get<bool>());
+    }
+    const CommandResult nowhere = run_umbilic({"umbilics", model_path("torus.step"), "--report", path("same.json")});
+    EXPECT_EQ(nowhere.status, 4);
+    EXPECT_TRUE(is_one_line(nowhere, "same.json"));
+}
+
 TEST_F(Command, JsonThatDoesNotArriveIsFour) {
     if (!fs::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
     for (const std::string& target : {std::string("/dev/full"), path("missing/i.json"), folder_.string()}) {

@@ -31,6 +31,21 @@ def test_one_face_alone_is_the_same_as_among_all(bottle):
     assert umbilic.umbilics(bottle, face=1).faces == every[:1]
 
 
+def test_types_within_the_accuracy(models):
+    file = models / "monge_umbilics.step"
+    exact = umbilic.umbilics(file)
+    assert sorted(umbilic.type_words(entry) for entry in exact.isolated) == ["hyperbolic star"] * 4 + ["monstar"]
+    assert all(entry["margin"] > 0 and not entry["neighbours"] for entry in exact.isolated)
+    assert umbilic.certificate_words(exact.faces[0]) == "complete"
+    rough = umbilic.umbilics(file, accuracy=1.2 * max(entry["margin"] for entry in exact.isolated))
+    for entry in rough.isolated:
+        assert entry["type"] == "non-generic" and entry["certified"]
+        assert " or " in umbilic.type_words(entry)
+    assert all(label.startswith("non-generic (") for label in rough.overlay().labels)
+    with pytest.raises(umbilic.InvalidInput):
+        umbilic.umbilics(file, accuracy=-1.0)
+
+
 def test_unknown_face_is_an_error(bottle):
     with pytest.raises(umbilic.InvalidInput, match="99"):
         umbilic.umbilics(bottle, face=99)

@@ -93,6 +93,22 @@ TEST_F(Output, CancelledReportLeavesNothing) {
     EXPECT_EQ(entries(), 0u);
 }
 
+TEST_F(Output, UmbilicsReportAppearsWholeOrNotAtAll) {
+    const auto made = made_comparison();
+    const std::vector<FaceUmbilics> found = find_umbilics(made->original_model);
+    const UmbilicsReportInput input{made->original_model, made->original_meshes, found, {}, "umbilic umbilics a"};
+    write_umbilics_report(folder_ / "report", input, Json{{"schema", "test"}});
+    EXPECT_NE(read(folder_ / "report" / "report.html").find("</html>"), std::string::npos);
+    EXPECT_EQ(Json::parse(read(folder_ / "report" / "umbilics.json")).at("schema"), "test");
+    EXPECT_EQ(entries(), 1u);
+    const Progress progress;
+    progress.cancel();
+    EXPECT_THROW(write_umbilics_report(folder_ / "other", input, Json::object(), progress), Cancelled);
+    EXPECT_EQ(entries(), 1u);
+    write_file(folder_ / "file", "text");
+    EXPECT_THROW(write_umbilics_report(folder_ / "file", input, Json::object()), NumericFailure);
+}
+
 TEST_F(Output, FailedReportLeavesNothing) {
     const auto made = made_comparison();  // its suspect has no file, so aligned.step cannot be written
     EXPECT_THROW(write_report(folder_ / "report", made->input(), Json::object()), Error);

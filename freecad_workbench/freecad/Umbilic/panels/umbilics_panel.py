@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The panel that finds umbilical points."""
 
-from typing import Any, Callable
+from collections import Counter
+from html import escape
+from typing import Any, Callable, List
 
 import FreeCAD as App
 
@@ -10,6 +12,9 @@ import umbilic
 from ..objects import make_umbilics
 from .model_choice import ModelChoice
 from .work_panel import WorkPanel, selected_objects
+
+
+TYPES = ("star", "monstar", "lemon", "non-generic")
 
 
 class UmbilicsPanel(WorkPanel):
@@ -42,15 +47,34 @@ class UmbilicsPanel(WorkPanel):
         self.form.answer.show()
 
 
+MOST_LINES = 8
+"""Faces and non-generic umbilics that are named one by one; all are in the object's result."""
+
+
 def summary(result: "umbilic.Umbilics", count: int) -> str:
-    """What was found, in rich text."""
+    """What was found and how far it is proved, in rich text."""
     words = {True: "Completeness was proved on every face.", False: "On some face umbilics are missing or undecided.",
              None: "Completeness could not be proved on every face."}
+    inside = [entry for entry in result.isolated if entry["inside"]]
     whole = sum(bool(face["regions"]) for face in result.faces)
     lines = sum(len(face["lines"]) for face in result.faces)
     text = f"<p style='font-size:large'><b>{count} isolated umbilic{'' if count == 1 else 's'}</b></p>"
+    types = Counter(entry["type"] for entry in inside)
+    if types:
+        text += "<p>" + escape(", ".join(f"{types[kind]} {kind}" for kind in TYPES if types[kind])) + ".</p>"
+    text += _list([f"Face {entry['face']}: {umbilic.type_words(entry)}" for entry in inside
+                   if entry["type"] == "non-generic"])
     if lines:
         text += f"<p>{lines} line{'' if lines == 1 else 's'} of umbilics.</p>"
     if whole:
         text += f"<p>{whole} face{'' if whole == 1 else 's'} with planar or spherical regions, umbilic everywhere.</p>"
-    return text + f"<p>{words[result.complete]}</p>"
+    text += f"<p>{words[result.complete]}</p>"
+    return text + _list([f"Face {face['face']}: {umbilic.certificate_words(face)}" for face in result.faces
+                         if face["umbilics"] or face["undecided"] or face["lines"]])
+
+
+def _list(entries: List[str]) -> str:
+    """At most MOST_LINES entries as rich text, and how many more there are."""
+    shown = "".join(f"<li>{escape(entry)}</li>" for entry in entries[:MOST_LINES])
+    more = len(entries) - MOST_LINES
+    return (f"<ul>{shown}</ul>" if shown else "") + (f"<p>and {more} more.</p>" if more > 0 else "")
