@@ -70,6 +70,10 @@ PageData lines(const std::vector<std::string>& texts) {
     return list;
 }
 
+std::string error_words(double error) {
+    return std::isfinite(error) ? "± " + readable(error, 2) : "no bound";
+}
+
 PageData row(const Entry& entry, bool with_pattern, double size) {
     const Umbilic& umbilic = *entry.umbilic;
     const Face& face = *entry.face;
@@ -90,8 +94,7 @@ PageData row(const Entry& entry, bool with_pattern, double size) {
     data.set("place", lines({"u " + readable(native.x(), 10), "v " + readable(native.y(), 10)}));
     data.set("point",
              lines({coordinate(umbilic.point.x()), coordinate(umbilic.point.y()), coordinate(umbilic.point.z())}));
-    data.set("kappa",
-             lines({umbilic.flat ? "0" : readable(umbilic.kappa, 6), "± " + readable(umbilic.kappa_error, 2)}));
+    data.set("kappa", lines({umbilic.flat ? "0" : readable(umbilic.kappa, 6), error_words(umbilic.kappa_error)}));
     data.set("omega",
              lines({omega_words(kind), kind.uncertainty.omega ? "± " + readable(*kind.uncertainty.omega, 2) : ""}));
     data.set("delta", lines({readable(kind.delta, 5), "± " + readable(kind.uncertainty.delta, 2)}));
