@@ -68,15 +68,15 @@ private:
     double width_ = 0.0, height_ = 0.0;
 };
 
-std::string outline(const Frame& frame, const std::vector<Vector2>& polyline) {
+std::string polyline(const Frame& frame, const std::vector<Vector2>& points) {
     namespace geometry = boost::geometry;
     using Point = geometry::model::d2::point_xy<double>;
     geometry::model::linestring<Point> line, simple;
-    for (const Vector2& at : polyline) line.emplace_back(frame.x(at.x()), frame.y(at.y()));
+    for (const Vector2& at : points) line.emplace_back(frame.x(at.x()), frame.y(at.y()));
     geometry::simplify(line, simple, loop_deviation);
     std::string path;
     for (const Point& at : simple) path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", at.x(), at.y());
-    return path + "Z";
+    return path;
 }
 
 /// The boxes as one path; what is smaller than a stroke shows as a stroke.
@@ -176,7 +176,7 @@ std::string parameter_picture_svg(const Face& face, const FaceUmbilics& found, i
                        frame.width(), frame.height());
     std::string loops;
     for (std::size_t i = 0; i < face.region.loops().size(); ++i)
-        loops += outline(frame, face.region.polyline(static_cast<int>(i)));
+        loops += polyline(frame, face.region.polyline(static_cast<int>(i))) + "Z";
     if (loops.empty()) loops = fmt::format("M{0} {0}h{1:.1f}v{2:.1f}h-{1:.1f}Z", margin, frame.width(), frame.height());
     svg += "<path class=\"face\" d=\"" + loops + "\"/>";
     svg += knot_lines(frame, face.surface);
@@ -188,7 +188,11 @@ std::string parameter_picture_svg(const Face& face, const FaceUmbilics& found, i
     for (const UmbilicRegion& region : found.regions)
         svg += boxes(frame, region.boxes, (std::string("region ") + name(region.kind)).c_str());
     if (!found.regions.empty()) svg += "</g>";
-    for (const UmbilicLine& line : found.lines) svg += boxes(frame, line.boxes, "umbilic-line");
+    for (const UmbilicLine& line : found.lines) {
+        svg += boxes(frame, line.boxes, "line-boxes");
+        if (!line.parameters.empty())
+            svg += "<path class=\"umbilic-line\" d=\"" + polyline(frame, line.parameters) + "\"/>";
+    }
     svg += "<path class=\"loop\" d=\"" + loops + "\"/>";
     for (const UndecidedCluster& open : found.undecided)
         if (!open.boxes.empty()) svg += cluster(frame, open);

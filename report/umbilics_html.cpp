@@ -119,18 +119,21 @@ std::string face_title(const Face& face, const FaceUmbilics& found) {
 
 std::vector<std::string> face_notes(const FaceUmbilics& found) {
     std::vector<std::string> notes;
+    if (found.recognised) notes.push_back(std::string("Recognised: ") + name(found.recognised->kind));
     for (const UmbilicRegion& region : found.regions)
         notes.push_back(std::string("Region on which every point is an umbilic: ") + name(region.kind) + ", " +
-                        readable(region.area, "mm²"));
+                        readable(region.area, "mm²") +
+                        (region.kind == UmbilicRegionKind::other
+                             ? ""
+                             : ", at most " + readable(region.deviation, "mm", 2) + " from its " +
+                                   (region.kind == UmbilicRegionKind::planar ? "plane" : "sphere")));
     std::string lengths;
-    for (const UmbilicLine& line : found.lines) {
-        double length = 0.0;
-        for (std::size_t i = 1; i < line.points.size(); ++i) length += (line.points[i] - line.points[i - 1]).norm();
-        lengths += (lengths.empty() ? "" : ", ") + readable(length, 3);
-    }
+    for (const UmbilicLine& line : found.lines)
+        lengths += (lengths.empty() ? "" : ", ") + readable(line.length, 3) + (line.closed ? " (closed)" : "");
     if (!lengths.empty())
-        notes.push_back((found.lines.size() == 1 ? "Line of umbilics, length " : "Lines of umbilics, lengths ") +
-                        lengths + " mm");
+        notes.push_back(
+            (found.lines.size() == 1 ? "Line of umbilics, length in mm: " : "Lines of umbilics, lengths in mm: ") +
+            lengths);
     if (!found.undecided.empty()) {
         std::string indices;
         for (const UndecidedCluster& open : found.undecided)

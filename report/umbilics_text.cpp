@@ -53,7 +53,7 @@ UmbilicCounts count_umbilics(const Model& model, const std::vector<FaceUmbilics>
                     break;
             }
         }
-        counts.lines += found.lines.size();
+        for (const UmbilicLine& line : found.lines) counts.lines += line.containment == Containment::outside ? 0 : 1;
         counts.regions += found.regions.size();
         counts.undecided += found.undecided.size();
         counts.complete += found.certificate.complete.value_or(false) ? 1 : 0;

@@ -126,12 +126,19 @@ TEST(ParameterPicture, ShowsWhatIsNotIsolatedAndWhatIsOutside) {
     found.umbilics.front().containment = Containment::outside;
     found.undecided.push_back({{{{0.1, 0.2}, {0.1, 0.2}}}, 0.5});
     found.undecided.push_back({{}, std::nullopt});
-    found.lines.push_back({{{{0.5, 0.6}, {0.0, 0.5}}, {{0.5, 0.6}, {0.5, 1.0}}}, {}});
-    found.regions.push_back({UmbilicRegionKind::planar, {{{0.7, 0.9}, {0.7, 0.9}}}, 1.0});
+    UmbilicLine line;
+    line.boxes = {{{0.5, 0.6}, {0.0, 0.5}}, {{0.5, 0.6}, {0.5, 1.0}}};
+    line.parameters = {{0.55, 0.0}, {0.55, 0.5}, {0.55, 1.0}};
+    found.lines.push_back(line);
+    UmbilicRegion region;
+    region.kind = UmbilicRegionKind::planar;
+    region.boxes = {{{0.7, 0.9}, {0.7, 0.9}}};
+    found.regions.push_back(region);
     const std::string svg = parameter_picture_svg(face, found, 1, true);
     EXPECT_EQ(count(svg, "class=\"outside\""), 1u);
     EXPECT_EQ(count(svg, "class=\"undecided\""), 1u);
     EXPECT_EQ(count(svg, "class=\"umbilic-line\""), 1u);
+    EXPECT_EQ(count(svg, "class=\"line-boxes\""), 1u);
     EXPECT_EQ(count(svg, "class=\"region planar\""), 1u);
     EXPECT_EQ(svg.find("nan"), std::string::npos);
 }
