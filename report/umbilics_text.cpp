@@ -18,8 +18,14 @@ std::string listed(const std::vector<std::string>& words, const char* last = " a
     return text;
 }
 
-bool umbilic_everywhere(const Face& face) {
-    return face.kind == SurfaceKind::plane || face.kind == SurfaceKind::sphere;
+/// Of what kind the whole face is, by its file or recognised.
+SurfaceKind whole_kind(const Face& face, const FaceUmbilics& found) {
+    return found.recognised ? found.recognised->kind : face.kind;
+}
+
+bool umbilic_everywhere(const Face& face, const FaceUmbilics& found) {
+    const SurfaceKind kind = whole_kind(face, found);
+    return kind == SurfaceKind::plane || kind == SurfaceKind::sphere;
 }
 
 }  // namespace
@@ -28,7 +34,7 @@ UmbilicCounts count_umbilics(const Model& model, const std::vector<FaceUmbilics>
     UmbilicCounts counts;
     counts.faces = all.size();
     for (const FaceUmbilics& found : all) {
-        if (umbilic_everywhere(model.face(found.face))) {
+        if (umbilic_everywhere(model.face(found.face), found)) {
             ++counts.whole;
             continue;
         }
@@ -84,7 +90,7 @@ std::string umbilics_explanation(const UmbilicCounts& counts) {
     if (counts.whole > 0)
         sentences.push_back((counts.whole == 1 ? "1 face is a plane or a sphere"
                                                : readable_count(counts.whole) + " faces are planes or spheres") +
-                            ": every point of it is an umbilic.");
+                            ": every point is an umbilic.");
     if (searched > 0 && searched == counts.complete)
         sentences.push_back((counts.isolated + counts.outside == 0 ? "It is proved that there is none on "
                                                                    : "The list is proved to be complete on ") +
@@ -148,7 +154,7 @@ std::string omega_words(const UmbilicClass& kind) {
 
 bool worth_showing(const Face& face, const FaceUmbilics& found) {
     return !found.umbilics.empty() || !found.undecided.empty() || !found.lines.empty() ||
-           (!found.regions.empty() && !umbilic_everywhere(face));
+           (!found.regions.empty() && !umbilic_everywhere(face, found));
 }
 
 std::vector<FaceGroup> plain_faces(const Model& model, const std::vector<FaceUmbilics>& all) {
@@ -156,9 +162,10 @@ std::vector<FaceGroup> plain_faces(const Model& model, const std::vector<FaceUmb
     for (const FaceUmbilics& found : all) {
         const Face& face = model.face(found.face);
         if (worth_showing(face, found)) continue;
-        const std::string words = face.kind == SurfaceKind::plane    ? "planes: every point is an umbilic"
-                                  : face.kind == SurfaceKind::sphere ? "spheres: every point is an umbilic"
-                                                                     : certificate_words(found);
+        std::string words = certificate_words(found);
+        if (umbilic_everywhere(face, found))
+            words = std::string(whole_kind(face, found) == SurfaceKind::plane ? "planes" : "spheres") +
+                    (found.recognised ? ", recognised as such" : "") + ": every point is an umbilic";
         auto group = std::ranges::find(groups, words, &FaceGroup::words);
         if (group == groups.end()) group = groups.insert(groups.end(), {words, {}});
         group->faces.push_back(face.number);

@@ -23,8 +23,8 @@ from ._native import Cancelled, Error, InvalidInput, NumericFailure, Unsupported
 from .comparisons import Alignment, Answer, Comparison, Match, Mesh, Overlay, Verdict, compare, match, report
 from .curves import Curve, Curves, geodesic, line_of_curvature, project
 from .models import Model, ShapeData, info, read
-from .wireframes import Wireframe, wireframe
 from .umbilical_points import UmbilicMarks, Umbilics, certificate_words, type_words, umbilics
+from .wireframes import Wireframe, wireframe
 
 __all__ = [
     "Alignment",

@@ -25,7 +25,7 @@ TEST(UmbilicsText, CountsAndTellsInWords) {
     const UmbilicCounts plane =
         counts_of({support::graph_patch(1, 1, [](double, double) { return 0.0; })}, SurfaceKind::plane);
     EXPECT_EQ(umbilics_headline(plane), "no isolated umbilic");
-    EXPECT_EQ(umbilics_explanation(plane), "1 face is a plane or a sphere: every point of it is an umbilic.");
+    EXPECT_EQ(umbilics_explanation(plane), "1 face is a plane or a sphere: every point is an umbilic.");
 
     const UmbilicCounts torus = counts_of({support::torus_quarter(3.0, 1.0), support::torus_quarter(5.0, 1.0)});
     EXPECT_EQ(umbilics_explanation(torus), "It is proved that there is none on all of the 2 faces.");
