@@ -170,16 +170,15 @@ PageData face_section(const Face& face, const FaceUmbilics& found, const std::ve
     data.set("certificate", certificate_words(found));
     data.set("rests", found.certificate.complete.value_or(false));
     data.set("why", found.certificate.why);
-    data.set(
-        "surface",
-        surface_words(face.kind) + " of degree " + std::to_string(face.surface.u_degree()) + " × " +
-            std::to_string(face.surface.v_degree()) + ", " + std::to_string(face.surface.u_pole_count()) + " × " +
-            std::to_string(face.surface.v_pole_count()) + " control points" +
-            (face.surface.rational() ? ", rational" : "") +
-            (found.statistics.patches > 0 ? "; " + readable_count(static_cast<std::uint64_t>(found.statistics.boxes)) +
-                                                " boxes searched, Bézier patches: " +
-                                                readable_count(static_cast<std::uint64_t>(found.statistics.patches))
-                                          : ""));
+    data.set("surface",
+             surface_words(face.kind) + " of degree " + std::to_string(face.surface.u_degree()) + " × " +
+                 std::to_string(face.surface.v_degree()) + ", " + std::to_string(face.surface.u_pole_count()) + " × " +
+                 std::to_string(face.surface.v_pole_count()) + " control points" +
+                 (face.surface.rational() ? ", rational" : "") +
+                 (found.statistics.patches > 0
+                      ? "; Bézier patches: " + readable_count(static_cast<std::uint64_t>(found.statistics.patches)) +
+                            ", boxes searched: " + readable_count(static_cast<std::uint64_t>(found.statistics.boxes))
+                      : ""));
     const std::size_t rows = std::min(most_rows, found.umbilics.size());
     data.set("picture", parameter_picture_svg(face, found, found.umbilics.empty() ? 0 : entries[first].number,
                                               found.umbilics.size() <= most_labels));
@@ -334,19 +333,27 @@ std::string umbilics_html(const UmbilicsReportInput& input, const Progress& prog
     page.set("at_infinity", at_infinity);
 
     PageData sections{PageData::type::list};
-    std::size_t first = 0, shown = 0, all_shown = 0;
+    // Faces with isolated umbilics come first.
+    struct Shown {
+        const FaceUmbilics* found;
+        std::size_t first;  ///< of its umbilics among all
+    };
+    std::vector<Shown> shown;
+    std::size_t first = 0;
     for (const FaceUmbilics& found : input.umbilics) {
-        progress.check();
-        const Face& face = input.model.face(found.face);
-        if (worth_showing(face, found) && ++all_shown <= most_faces)
-            sections.push_back(
-                face_section(face, found, entries, first, shown++ < open_faces, input.model.box.diagonal()));
+        if (worth_showing(input.model.face(found.face), found)) shown.push_back({&found, first});
         first += found.umbilics.size();
     }
+    std::ranges::stable_partition(shown, [](const Shown& entry) { return !entry.found->umbilics.empty(); });
+    for (std::size_t i = 0; i < std::min(most_faces, shown.size()); ++i) {
+        progress.check();
+        sections.push_back(face_section(input.model.face(shown[i].found->face), *shown[i].found, entries,
+                                        shown[i].first, i < open_faces, input.model.box.diagonal()));
+    }
     page.set("sections", sections);
-    page.set("has_sections", shown > 0);
-    page.set("faces_left_out", all_shown > most_faces);
-    page.set("faces_left_out_count", counted(all_shown - std::min(all_shown, most_faces), "more face"));
+    page.set("has_sections", !shown.empty());
+    page.set("faces_left_out", shown.size() > most_faces);
+    page.set("faces_left_out_count", counted(shown.size() - std::min(shown.size(), most_faces), "more face"));
     PageData groups{PageData::type::list};
     for (const FaceGroup& group : plain_faces(input.model, input.umbilics)) {
         PageData entry;
