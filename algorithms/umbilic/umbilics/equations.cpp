@@ -366,14 +366,17 @@ bool UmbilicEquations::umbilic(PatchEdge edge) const {
 }
 
 void UmbilicEquations::divide_by_edges(const std::array<bool, 4>& edges) {
+    divided_exactly_ = true;
     for (const PatchEdge edge : {PatchEdge::u_low, PatchEdge::u_high, PatchEdge::v_low, PatchEdge::v_high}) {
         if (!edges[static_cast<int>(edge)]) continue;
         const bool across_u = edge == PatchEdge::u_low || edge == PatchEdge::u_high;
         for (TensorPolynomial* polynomial : {&a_, &b_})
             while ((across_u ? polynomial->u_degree : polynomial->v_degree) > 0 &&
                    polynomial->magnitude > polynomial->bound.input &&
-                   edge_magnitude(*polynomial, edge) <= polynomial->bound.input)
+                   edge_magnitude(*polynomial, edge) <= polynomial->bound.input) {
+                divided_exactly_ = divided_exactly_ && edge_magnitude(*polynomial, edge) <= polynomial->bound.rounding;
                 divide_by_edge(*polynomial, edge);
+            }
     }
     raise_to_common_degree(a_, b_);
 }

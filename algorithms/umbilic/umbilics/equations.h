@@ -74,6 +74,9 @@ public:
     /// power and B the third; both one more if the pole is umbilic, and still more if its cubic form vanishes.
     /// Needs form_umbilic.
     void divide_by_edges(const std::array<bool, 4>& edges);
+    /// Everything divide_by_edges() dropped was zero within the rounding of the arithmetic. If not, the divided
+    /// equations are those of a surface that rounds to the given one, and their zeros need not be its own.
+    bool divided_exactly() const { return divided_exactly_; }
 
 private:
     using Vector3Polynomial = std::array<TensorPolynomial, 3>;
@@ -97,6 +100,7 @@ private:
     int p_ = 0, q_ = 0;
     bool rational_ = false;
     std::array<bool, 4> singular_{};
+    bool divided_exactly_ = true;
     /// Bernstein coefficients of the homogeneous components x, y, z, w.
     std::array<std::vector<double>, 4> net_;
     std::array<double, 4> net_magnitude_{};

@@ -22,8 +22,9 @@ constexpr long heap_budget = 48000, least_heap_budget = 1500, most_heap_budget =
 constexpr long refinement_budget = 30000;
 constexpr std::array<bool, 4> undivided{};
 /// Next to a singular or umbilic edge, within this part of the patch, the equations divided by the edge's factors are
-/// used: they have a looser bound, but do not vanish on the edge.
-constexpr double edge_share = 0.125;
+/// used: they have a looser bound, but do not vanish on the edge. What they leave out where the edge is singular or
+/// umbilic only within the input's rounding grows with the inverse of the distance.
+constexpr double edge_share = 1.0 / 64;
 /// A box on which the bound has this share in the polynomials' sizes is open because of the bound.
 constexpr double doubtful = 1e-3;
 /// It is searched again with bounds for single coefficients if those are smaller by this factor.
@@ -104,8 +105,14 @@ PatchUmbilics PatchSearch::search(const NurbsSurface& surface, const BezierPatch
         for (const ParameterBox& strip : strips) zeros_.search(strip, task.limits, progress, near_edges);
         refine(task, progress, near_edges);
         redo_doubtful(surface, patch, input, task, divided, progress, near_edges);
-        for (const IsolatedZero& zero : near_edges.isolated)
-            if (!on_umbilic_edge(zero)) CommonZeroSearch::add_zero(zero, result.zeros);
+        for (const IsolatedZero& zero : near_edges.isolated) {
+            if (on_umbilic_edge(zero)) continue;
+            if (equations_.divided_exactly())
+                CommonZeroSearch::add_zero(zero, result.zeros);
+            else
+                // A zero of a surface that rounds to this one; its distance from this one's is not bounded.
+                result.zeros.open.push_back({zero.box, false, 0.0});
+        }
         std::vector<OpenBox>& open = result.zeros.open;
         open.insert(open.end(), near_edges.open.begin(), near_edges.open.end());
         for (const ParameterBox& line : umbilic_edges) open.push_back({line, false});
