@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <string>
+
 #include <umbilic/curves/relaxation.h>
 #include <umbilic/curves/surface_path.h>
 

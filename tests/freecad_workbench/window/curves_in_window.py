@@ -126,6 +126,15 @@ def check_domain(document):
     return document
 
 
+def check_wireframe(document):
+    Gui.Selection.clearSelection()
+    Gui.Selection.addSelection(document.Bottle)
+    wireframe = draw(document, "Umbilic_Wireframe", {"step": 15.0}, "6_wireframe")
+    assert wireframe.NodeCount == len(wireframe.Points) > 50, wireframe.NodeCount
+    assert wireframe.CellCount > 0 and wireframe.Step.Value == 15.0
+    return document
+
+
 def check_saving(document):
     path = os.path.join(OUTPUT, "curves.FCStd")
     counts = {obj.Name: len(obj.Points) for obj in document.Objects if hasattr(obj, "PointCounts")}
@@ -138,4 +147,4 @@ def check_saving(document):
     screenshot("5_reopened")
 
 
-run(open_model, check_lines, check_geodesic, check_projection, check_domain, check_saving)
+run(open_model, check_lines, check_geodesic, check_projection, check_domain, check_wireframe, check_saving)

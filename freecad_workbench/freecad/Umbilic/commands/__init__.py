@@ -8,6 +8,7 @@ from .curves import GeodesicCommand, LinesOfCurvatureCommand, ProjectCurveComman
 from .domain import DomainCommand
 from .report import ReportCommand
 from .umbilics import UmbilicsCommand
+from .wireframe import WireframeCommand
 
 _COMMANDS = {
     "Umbilic_Compare": CompareCommand,
@@ -15,6 +16,7 @@ _COMMANDS = {
     "Umbilic_LinesOfCurvature": LinesOfCurvatureCommand,
     "Umbilic_Geodesic": GeodesicCommand,
     "Umbilic_ProjectCurve": ProjectCurveCommand,
+    "Umbilic_Wireframe": WireframeCommand,
     "Umbilic_Domain": DomainCommand,
     "Umbilic_Report": ReportCommand,
 }

@@ -9,6 +9,7 @@ from .curves import CurvesProxy, make_curves
 from .deviation import DeviationProxy
 from .nodes import NodesProxy, add_node, join, make_nodes
 from .umbilics import UmbilicsProxy, make_umbilics
+from .wireframe import WireframeProxy, make_wireframe
 
 __all__ = [
     "ComparisonProxy",
@@ -16,6 +17,7 @@ __all__ = [
     "DeviationProxy",
     "NodesProxy",
     "UmbilicsProxy",
+    "WireframeProxy",
     "add_node",
     "compare_objects",
     "join",
@@ -23,4 +25,5 @@ __all__ = [
     "make_curves",
     "make_nodes",
     "make_umbilics",
+    "make_wireframe",
 ]

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The panels that draw single curves on faces."""
+"""The panels that draw on faces: what they share, and single curves."""
 
-from typing import Any, Callable, List, Optional
+from typing import Any, Callable, List
 
 import FreeCAD as App
 import FreeCADGui as Gui
@@ -44,32 +44,75 @@ def _end(kind: str, curve: "umbilic.Curve") -> str:
     return _ENDS[curve.ended]
 
 
-class _CurvesPanel(WorkPanel):
-    """Choose a model and what starts the curve."""
+class DrawingPanel(WorkPanel):
+    """Choose a model and what shall be drawn on it; each result becomes one object."""
 
     ui_file = "curves.ui"
     title = ""
     shown = ()
-    """Groups of fields this kind of curve needs."""
+    """Groups of fields this kind of drawing needs."""
 
     def __init__(self):
         super().__init__()
         form = self.form
         form.setWindowTitle(self.title)
         form.run.setText(self.title)
-        for group in (form.startGroup, form.endGroup, form.familyGroup, form.targetGroup):
+        for group in (form.startGroup, form.endGroup, form.familyGroup, form.targetGroup, form.stepGroup):
             group.setVisible(group.objectName() in self.shown)
-        chosen = selected_objects() + [None]
-        self.model = ModelChoice(form.model, form.modelFile, chosen[0])
+        self.model = ModelChoice(form.model, form.modelFile, (selected_objects() + [None])[0])
+        form.answer.hide()
+
+    def work(self, source: Any) -> Callable[[Callable[[float, str], bool]], Any]:
+        """What the thread shall do with a model."""
+        raise NotImplementedError
+
+    def found(self, result: Any) -> bool:
+        """Whether there is anything to draw."""
+        raise NotImplementedError
+
+    def make(self, document: Any, result: Any, source: Any, title: str) -> Any:
+        """Adds the object."""
+        raise NotImplementedError
+
+    def summary(self, result: Any) -> str:
+        """What was found, in rich text."""
+        raise NotImplementedError
+
+    def prepare(self) -> Callable[[Callable[[float, str], bool]], Any]:
+        return self.work(self.model.source("Model"))
+
+    def show(self, result: Any) -> None:
+        self.form.answer.setText(self.summary(result))
+        self.form.answer.show()
+        if not self.found(result):
+            return
+        source = self.model.document_object
+        document = App.ActiveDocument or App.newDocument("Umbilic")
+        document.openTransaction(self.title)
+        try:
+            self.make(document, result, source, source.Label if source is not None else "")
+        except Exception:
+            document.abortTransaction()
+            raise
+        document.commitTransaction()
+        document.recompute()
+
+
+class _CurvesPanel(DrawingPanel):
+    """A model and what starts a curve."""
+
+    def __init__(self):
+        super().__init__()
+        form = self.form
+        chosen = (selected_objects() + [None])[0]
         self.start = FacePoint(form.startFace, form.startU, form.startV)
         self.end = FacePoint(form.endFace, form.endU, form.endV)
-        set_middle(self.start, chosen[0])
-        set_middle(self.end, chosen[0])
+        set_middle(self.start, chosen)
+        set_middle(self.end, chosen)
         form.fromSelection.clicked.connect(self.take_selection)
         form.toPoint.toggled.connect(self._end_changed)
         self._end_changed()
         self.take_selection()
-        form.answer.hide()
 
     def take_selection(self) -> None:
         """Takes the points that were picked on faces: the first as start, the second as end."""
@@ -84,31 +127,14 @@ class _CurvesPanel(WorkPanel):
         self.form.endPoint.setEnabled(to_point)
         self.form.endDirection.setEnabled(not to_point)
 
-    def work(self, source: Any) -> Callable[[Callable[[float, str], bool]], "umbilic.Curves"]:
-        raise NotImplementedError
+    def found(self, result: "umbilic.Curves") -> bool:
+        return bool(len(result))
 
-    def prepare(self) -> Callable[[Callable[[float, str], bool]], Any]:
-        return self.work(self.model.source("Model"))
+    def make(self, document: Any, result: "umbilic.Curves", source: Any, title: str) -> Any:
+        return make_curves(document, result, source, title)
 
-    def result_object(self) -> Optional[Any]:
-        """The object on which the curves lie."""
-        return self.model.document_object
-
-    def show(self, result: "umbilic.Curves") -> None:
-        self.form.answer.setText(summary(result))
-        self.form.answer.show()
-        if not len(result):
-            return
-        source = self.result_object()
-        document = App.ActiveDocument or App.newDocument("Curves")
-        document.openTransaction(self.title)
-        try:
-            make_curves(document, result, source, source.Label if source is not None else "")
-        except Exception:
-            document.abortTransaction()
-            raise
-        document.commitTransaction()
-        document.recompute()
+    def summary(self, result: "umbilic.Curves") -> str:
+        return summary(result)
 
 
 class LinesOfCurvaturePanel(_CurvesPanel):

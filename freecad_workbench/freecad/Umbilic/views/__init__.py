@@ -11,8 +11,9 @@ from .curves_view import CurvesView
 from .deviation_view import DeviationView
 from .nodes_view import NodesView
 from .umbilics_view import UmbilicsView
+from .wireframe_view import WireframeView
 
-_VIEWS = {view.__name__: view for view in (ComparisonView, CurvesView, DeviationView, NodesView, UmbilicsView)}
+_VIEWS = {view.__name__: view for view in (ComparisonView, CurvesView, DeviationView, NodesView, UmbilicsView, WireframeView)}
 
 
 def attach(obj: Any) -> bool:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Coin nodes for lines and points in front of a model."""
 
+from itertools import groupby
 from typing import Any, Sequence
 
 from pivy import coin
@@ -27,13 +28,14 @@ def add_lines(node: Any, points: Sequence, counts: Sequence, colors: Sequence[tu
     coordinates.point.setValues(0, len(points), [tuple(point) for point in points])
     node.addChild(coordinates)
     first = 0
-    for color, count in zip(colors, counts):
-        line = coin.SoLineSet()
-        line.startIndex = first
-        line.numVertices.setValues(0, 1, [int(count)])
+    for color, group in groupby(zip(colors, counts), key=lambda one: one[0]):
+        lengths = [int(count) for _, count in group]
+        lines = coin.SoLineSet()
+        lines.startIndex = first
+        lines.numVertices.setValues(0, len(lengths), lengths)
         node.addChild(colored(color))
-        node.addChild(line)
-        first += int(count)
+        node.addChild(lines)
+        first += sum(lengths)
 
 
 def add_points(node: Any, points: Sequence, color: tuple) -> None:
