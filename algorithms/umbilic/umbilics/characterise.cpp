@@ -57,11 +57,14 @@ double rounding_displacement(const BezierPatch& patch, const InputRounding& inpu
 class CubicError {
 public:
     /// `at_rest`: error without any displacement.
-    CubicError(const UmbilicSensitivity& sensitivity, const UmbilicClass& kind, double at_rest)
+    CubicError(const UmbilicSensitivity& sensitivity, const Cubic& cubic, double at_rest)
         : growth_(second_order * sensitivity.cubic),
           metric_(sensitivity.metric),
           at_rest_(at_rest),
-          loss_((1 + 1 / std::sqrt(3.0)) / (4 * std::abs(std::abs(kind.alpha) - std::abs(kind.beta)))) {}
+          // 8 alpha and 8 beta stand in the denominator.
+          loss_(2 * (1 + 1 / std::sqrt(3.0)) /
+                std::abs(std::hypot(cubic.a - 3 * cubic.c, cubic.d - 3 * cubic.b) -
+                         std::hypot(cubic.a + cubic.c, cubic.b + cubic.d))) {}
 
     /// Solves e = at_rest + growth t / (1 - loss e).
     double of(double displacement) const {
@@ -106,8 +109,7 @@ void classify_piece(const SurfaceDerivatives& d, const UmbilicSensitivity& sensi
     }
     const double norm = std::sqrt(umbilic.cubic.squared_norm());
     umbilic.kappa_error = second_order * sensitivity.kappa * displacement + sensitivity.kappa_slope * distance;
-    umbilic.kind = classify(umbilic.cubic, 0.0);
-    const CubicError error(sensitivity, umbilic.kind, sensitivity.cubic_slope * distance + relative * norm);
+    const CubicError error(sensitivity, umbilic.cubic, sensitivity.cubic_slope * distance + relative * norm);
     umbilic.cubic_error = error.of(displacement);
     umbilic.kind = classify(umbilic.cubic, norm > 0.0 ? std::min(1.0, umbilic.cubic_error / norm) : 1.0);
     if (umbilic.kind.type != UmbilicType::non_generic) umbilic.margin = error.displacement(umbilic.kind.margin * norm);

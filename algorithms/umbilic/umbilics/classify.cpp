@@ -103,15 +103,22 @@ struct Discriminant {
 
     /// Distance from the form up to which the sign cannot change, at most 1.
     double reach() const {
-        if (!decided(0.0)) return 0.0;
-        if (decided(1.0)) return 1.0;
-        double low = 0.0, high = 1.0;
-        for (int step = 0; step < std::numeric_limits<double>::digits; ++step) {
-            const double middle = 0.5 * (low + high);
-            (decided(middle) ? low : high) = middle;
+        const double size = std::abs(value);
+        if (change_within(1.0) < size) return 1.0;
+        // The change is convex in t, so Newton's method comes down to its root from 1.
+        double t = 1.0;
+        for (int step = 0; step < reach_steps; ++step) {
+            const double slope = change[0] + t * (2 * change[1] + t * (3 * change[2] + t * 4 * change[3]));
+            const double next = t - (change_within(t) - size) / slope;
+            if (!(next < t)) break;
+            t = next;
         }
-        return low;
+        return std::max(0.0, t * (1.0 - reach_rounding));
     }
+
+    /// Steps from 1 to any root that is no rounding error: each one halves it at least until the change is linear.
+    static constexpr int reach_steps = 2 * std::numeric_limits<double>::digits;
+    static constexpr double reach_rounding = 1e-12;
 };
 
 /// |alpha|^2 - |beta|^2.
