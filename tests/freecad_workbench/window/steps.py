@@ -45,9 +45,18 @@ def click_command(name):
     raise AssertionError(f"no button for {name}")
 
 
+def shown(condition):
+    """Visible widgets for which the condition holds.
+
+    Not by the main window's findChild: it makes what it finds a child of the window's Python object, which keeps the
+    wrappers of closed panels for ever; new widgets that get the address of a dead one are then reported as deleted.
+    """
+    return [widget for widget in QtGui.QApplication.allWidgets() if widget.isVisible() and condition(widget)]
+
+
 def panel(name):
-    until(lambda: Gui.getMainWindow().findChild(QtGui.QWidget, name), f"panel {name}", 10)
-    return Gui.getMainWindow().findChild(QtGui.QWidget, name)
+    until(lambda: shown(lambda widget: widget.objectName() == name), f"panel {name}", 10)
+    return shown(lambda widget: widget.objectName() == name)[0]
 
 
 def child(form, kind, name):
@@ -61,7 +70,7 @@ def click(form, name, kind=QtGui.QPushButton):
 
 
 def close_panel():
-    box = next(b for b in Gui.getMainWindow().findChildren(QtGui.QDialogButtonBox) if b.isVisible())
+    box = shown(lambda widget: isinstance(widget, QtGui.QDialogButtonBox))[0]
     QTest.mouseClick(box.button(QtGui.QDialogButtonBox.Close), QtCore.Qt.LeftButton)
     until(lambda: not Gui.Control.activeDialog(), "the panel to close", 10)
 
