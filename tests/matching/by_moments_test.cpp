@@ -41,7 +41,8 @@ Solid tetrahedron(const std::array<Vector3, 4>& corners) {
 }
 
 PreparedModel prepared(const Model& model) {
-    return {model, {}, ClosestPointTree(support::table_3_1_patch())};
+    return {model, {}, ClosestPointTree(support::table_3_1_patch()),
+            PrincipalFrameTable(std::vector<PrincipalFrameTable::Entry>(), 0.0)};
 }
 
 Model of_solids(std::vector<Solid> solids) {

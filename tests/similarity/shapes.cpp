@@ -106,7 +106,7 @@ PreparedModel prepared_on_grid(const Model& model, int n) {
         none.face = face.number;
         features.umbilics.push_back(none);
     }
-    return {model, std::move(features), ClosestPointTree(model)};
+    return {model, std::move(features), ClosestPointTree(model), PrincipalFrameTable(model, n * n)};
 }
 
 Umbilic star_at(const Face& face, double u, double v) {

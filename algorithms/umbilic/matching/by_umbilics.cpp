@@ -31,9 +31,10 @@ constexpr double vote_cosine = 0.9;
 /// Factor by which the scale from one umbilic may leave the user's range and still be tried.
 constexpr double scale_slack = 1.2;
 
-/// Corresponding pairs times hypotheses that voting may look at, and hypotheses handed on.
+/// Corresponding pairs times hypotheses that voting may look at; hypotheses of one reading that are improved over their
+/// voters, those with most votes; and hypotheses handed on.
 constexpr double vote_budget = 5e7;
-constexpr std::size_t most_proposals = 400;
+constexpr std::size_t most_improved = 1000, most_proposals = 400;
 
 /// A cubic smaller than this part of kappa^2 (or of 1 / size^2 where flat) has no direction.
 constexpr double vanishing_cubic = 1e-9;
@@ -77,15 +78,22 @@ std::vector<Pair> corresponding(const std::vector<UmbilicMark>& original, const 
 /// Partner of each suspect umbilic under a pose: the nearest corresponding umbilic within `limit`.
 std::vector<std::pair<Pair, double>> partners(const std::vector<UmbilicMark>& original, const Reading& reading,
                                               const SimilarityTransform& pose, double limit) {
+    const Matrix3 orthogonal = pose.orthogonal();
     std::vector<std::pair<Pair, double>> result;
-    for (const Pair& pair : reading.pairs) {
-        const UmbilicMark &a = original[pair.original], &b = reading.suspect[pair.suspect];
-        const double distance = (pose.apply(b.point) - a.point).norm();
-        if (distance > limit || pose.apply_direction(b.normal).dot(a.normal) < vote_cosine) continue;
-        if (result.empty() || result.back().first.suspect != pair.suspect)
-            result.emplace_back(pair, distance);
-        else if (distance < result.back().second)
-            result.back() = {pair, distance};
+    for (auto pair = reading.pairs.begin(); pair != reading.pairs.end();) {
+        const int suspect = pair->suspect;
+        const Vector3 point = pose.scale * (orthogonal * reading.suspect[suspect].point) + pose.translation;
+        const Vector3 normal = orthogonal * reading.suspect[suspect].normal;
+        double nearest = limit * limit;
+        const Pair* partner = nullptr;
+        for (; pair != reading.pairs.end() && pair->suspect == suspect; ++pair) {
+            const UmbilicMark& mark = original[pair->original];
+            const double square = (point - mark.point).squaredNorm();
+            if (square > nearest || (partner && square == nearest) || normal.dot(mark.normal) < vote_cosine) continue;
+            nearest = square;
+            partner = &*pair;
+        }
+        if (partner) result.emplace_back(*partner, std::sqrt(nearest));
     }
     return result;
 }
@@ -268,6 +276,10 @@ Proposals poses_by_umbilics(const PreparedModel& original, const PreparedModel& 
         tbb::parallel_for(std::size_t{0}, reading.hypotheses.size(), [&](std::size_t k) {
             progress.check();
             vote(marks_a, reading, length, reading.hypotheses[k]);
+        });
+        std::stable_sort(reading.hypotheses.begin(), reading.hypotheses.end(), better);
+        tbb::parallel_for(std::size_t{0}, std::min(reading.hypotheses.size(), most_improved), [&](std::size_t k) {
+            progress.check();
             improve(marks_a, reading, length, scale, reading.hypotheses[k]);
         });
         all.insert(all.end(), reading.hypotheses.begin(), reading.hypotheses.end());

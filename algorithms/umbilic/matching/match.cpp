@@ -24,8 +24,6 @@ constexpr int refined_poses = 16, refined_moments = 48;
 /// copy turns by a few degrees, sampled rotations are up to 15 degrees off, given pairs and poses may be rough, a
 /// principal frame comes from the nearest sample.
 constexpr double umbilics_error = 0.08, moments_error = 0.25, given_error = 0.25, curvature_error = 0.15;
-/// Samples among which principal frames are looked up, and from which those to look up are chosen.
-constexpr int table_samples = 20000, seed_samples = 4000;
 /// Seeds looked up without the third order; on exact and re-approximated surfaces nearly every single seed succeeds.
 constexpr int second_order_seeds = 6;
 
@@ -50,38 +48,24 @@ Proposals given_poses(const MatchOptions& options) {
 
 /// Poses from single points with their principal frames, seeds on the suspect or (`swapped`) on the original, for a
 /// suspect of which only a part comes from the original.
-class CurvatureProposals {
-public:
-    CurvatureProposals(const PreparedModel& original, const PreparedModel& suspect, const MatchOptions& options,
-                       const Progress& progress)
-        : original_(original.model, table_samples, progress.part(0.0, 0.5)),
-          suspect_(suspect.model, table_samples, progress.part(0.5, 0.8)),
-          original_seeds_(original.model, seed_samples, progress.part(0.8, 0.9)),
-          suspect_seeds_(suspect.model, seed_samples, progress.part(0.9, 1.0)),
-          options_{.flip_normals = !(original.model.oriented() && suspect.model.oriented()),
-                   .scale = options.scale,
-                   .mirror = options.mirror} {}
-
-    Proposals propose(bool third_order, bool swapped, const Progress& progress) const {
-        PrincipalFrameOptions options = options_;
-        options.third_order = third_order;
-        if (!third_order) options.seeds = second_order_seeds;
-        if (swapped) options.scale = options.scale.inverse();
-        Proposals result{.why = std::string("curvature: ") + (third_order ? "third order" : "second order") +
-                                (swapped ? " from the original's side" : "")};
-        for (const PoseCandidate& pose : swapped
-                                             ? propose_by_principal_frame(suspect_, original_seeds_, options, progress)
-                                             : propose_by_principal_frame(original_, suspect_seeds_, options, progress))
-            result.poses.push_back(
-                {swapped ? pose.original_suspect.inverse() : pose.original_suspect, MatchMethod::curvature});
-        if (result.poses.empty()) result.why += " proposed no pose";
-        return result;
-    }
-
-private:
-    PrincipalFrameTable original_, suspect_, original_seeds_, suspect_seeds_;
-    PrincipalFrameOptions options_;
-};
+Proposals poses_by_principal_frame(const PreparedModel& original, const PreparedModel& suspect,
+                                   const MatchOptions& match, bool third_order, bool swapped,
+                                   const Progress& progress) {
+    PrincipalFrameOptions options{.third_order = third_order,
+                                  .flip_normals = !(original.model.oriented() && suspect.model.oriented()),
+                                  .scale = swapped ? match.scale.inverse() : match.scale,
+                                  .mirror = match.mirror};
+    if (!third_order) options.seeds = second_order_seeds;
+    Proposals result{.why = std::string("curvature: ") + (third_order ? "third order" : "second order") +
+                            (swapped ? " from the original's side" : "")};
+    const auto poses = swapped ? propose_by_principal_frame(suspect.table, original.table, options, progress)
+                               : propose_by_principal_frame(original.table, suspect.table, options, progress);
+    for (const PoseCandidate& pose : poses)
+        result.poses.push_back(
+            {swapped ? pose.original_suspect.inverse() : pose.original_suspect, MatchMethod::curvature});
+    if (result.poses.empty()) result.why += " proposed no pose";
+    return result;
+}
 
 }  // namespace
 
@@ -125,16 +109,16 @@ Alignment match(const PreparedModel& original, const PreparedModel& suspect, con
         consider(poses_by_moments(original, suspect, options.scale, options.mirror), refined_moments, moments_error,
                  progress.part(0.5, 0.6));
     if (wanted(MethodChoice::curvature)) {
-        const CurvatureProposals proposals(original, suspect, options, progress.part(0.6, 0.7));
-        double fraction = 0.7;
+        double fraction = 0.6;
         // Without the third order there are some hundred times as many hypotheses: last, and on one side.
         constexpr std::array<std::pair<bool, bool>, 3> passes = {{{true, false}, {true, true}, {false, false}}};
         for (const auto& [third_order, swapped] : passes) {
-            const Progress part = progress.part(fraction, fraction + 0.05);
-            fraction += 0.05;
+            const Progress part = progress.part(fraction, fraction + 0.1);
+            fraction += 0.1;
             if (!settled(search))
-                consider(proposals.propose(third_order, swapped, part.part(0.0, 0.5)), refined_poses, curvature_error,
-                         part.part(0.5, 1.0));
+                consider(poses_by_principal_frame(original, suspect, options, third_order, swapped,
+                                                  part.part(0.0, 0.5)),
+                         refined_poses, curvature_error, part.part(0.5, 1.0));
         }
     }
     progress.report(0.9, "comparing poses");

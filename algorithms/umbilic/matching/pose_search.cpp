@@ -58,6 +58,8 @@ double stated(const Model& model) {
 PoseSearch::PoseSearch(const PreparedModel& original, const PreparedModel& suspect, const MatchOptions& options)
     : original_(original),
       suspect_(suspect),
+      original_samples_(original.table),
+      suspect_samples_(suspect.table),
       options_(options),
       distance_(suspect.features),
       original_length_(shape_size(original.features).length),
@@ -79,6 +81,7 @@ double PoseSearch::stated_tolerance(double scale) const {
 void PoseSearch::consider(const Proposals& proposals, int keep, double start_cutoff, const Progress& progress) {
     const std::vector<int> original_few = spread_samples(original_.model.features.samples, quick_samples);
     const std::vector<int> suspect_few = spread_samples(suspect_.model.features.samples, quick_samples);
+    const bool oriented = original_.model.model.oriented() && suspect_.model.model.oriented();
     const auto& all = proposals.poses;
     std::vector<double> scores(all.size(), 0.0);
     std::vector<double> best;  // scores of the best `keep` so far, for giving up early
@@ -92,10 +95,11 @@ void PoseSearch::consider(const Proposals& proposals, int keep, double start_cut
             const double ratio = pose.scale * suspect_length_ / original_length_;
             if (!(ratio < greatest_length_ratio && 1.0 / ratio < greatest_length_ratio)) return;
             const double tolerance = coarse_tolerance * length(pose.scale);
-            scores[i] =
-                suspect_is_larger(pose.scale)
-                    ? quick_score(suspect_, original_.model, original_few, pose.inverse(), tolerance / pose.scale, bar)
-                    : quick_score(original_, suspect_.model, suspect_few, pose, tolerance, bar);
+            scores[i] = suspect_is_larger(pose.scale)
+                            ? quick_score(suspect_samples_, oriented, original_.model.features.samples, original_few,
+                                          pose.inverse(), tolerance / pose.scale, bar)
+                            : quick_score(original_samples_, oriented, suspect_.model.features.samples, suspect_few,
+                                          pose, tolerance, bar);
         });
         best.insert(best.end(), scores.begin() + begin, scores.begin() + end);
         std::sort(best.rbegin(), best.rend());
@@ -153,7 +157,8 @@ ScoredPose PoseSearch::refined(const PoseHypothesis& hypothesis, const std::vect
     SimilarityTransform ground_points = larger_suspect ? pose.inverse() : pose;
     if (start_cutoff > near_cutoff && points.size() > approaching_points) {
         options.maximum_steps = approaching_steps;
-        result.refinement = refine(ground, points.first(approaching_points), ground_points, options, progress);
+        result.refinement = refine(larger_suspect ? suspect_samples_ : original_samples_,
+                                   points.first(approaching_points), ground_points, options, progress);
         if (result.refinement.share < hopeless_share) return result;
         ground_points = result.refinement.original_suspect;
         options = {.scale = options.scale, .start_cutoff = near_cutoff};

@@ -8,6 +8,7 @@
 #include <umbilic/matching/pose_hypothesis.h>
 #include <umbilic/matching/refine.h>
 #include <umbilic/matching/score.h>
+#include <umbilic/matching/table_ground.h>
 
 namespace umbilic {
 
@@ -23,6 +24,7 @@ struct ScoredPose {
 
 /// Collects hypotheses from any method and keeps the best refined poses. Hypotheses are scored by one rule: the share
 /// of the smaller model (original or moved suspect) that comes to lie on the larger one, judged on a few samples first.
+/// Until a pose is near, distances are taken from the table of samples instead of the surface itself.
 /// Results do not depend on the number of threads.
 class PoseSearch {
 public:
@@ -55,6 +57,8 @@ private:
 
     Ground original_;
     Ground suspect_;
+    TableGround original_samples_;  ///< stands in for the surface while a pose is still rough
+    TableGround suspect_samples_;
     MatchOptions options_;
     PoseDistance distance_;
     double original_length_ = 0.0;

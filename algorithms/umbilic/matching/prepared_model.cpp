@@ -7,8 +7,8 @@ namespace umbilic {
 
 namespace {
 
-/// Part of the work that the search for umbilics takes, for the progress report only.
-constexpr double umbilics_share = 0.8;
+/// Part of the features that the search for umbilics takes, and of all that features take; for the progress report only.
+constexpr double umbilics_share = 0.8, features_share = 0.8;
 
 }  // namespace
 
@@ -22,7 +22,8 @@ Features extract_features(const Model& model, const FeatureOptions& options, con
 PreparedModel prepare(const Model& model, const FeatureOptions& options, const Progress& progress) {
     if (model.faces.empty())
         throw InvalidInput(model.source.path + ": the model has no face to compare; export surfaces or solids");
-    return {model, extract_features(model, options, progress), ClosestPointTree(model)};
+    return {model, extract_features(model, options, progress.part(0.0, features_share)), ClosestPointTree(model),
+            PrincipalFrameTable(model, options.table_samples, progress.part(features_share, 1.0))};
 }
 
 }  // namespace umbilic

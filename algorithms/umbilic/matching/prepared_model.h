@@ -6,6 +6,7 @@
 #include <umbilic/core/progress.h>
 #include <umbilic/curves/closest_point.h>
 #include <umbilic/differential/area_samples.h>
+#include <umbilic/matching/principal_frame_table.h>
 #include <umbilic/model/model.h>
 #include <umbilic/umbilics/find.h>
 
@@ -14,6 +15,7 @@ namespace umbilic {
 struct FeatureOptions {
     UmbilicOptions umbilics;
     AreaSampleOptions samples;
+    int table_samples = 20000;  ///< of the table of principal frames
 };
 
 /// Intrinsic features of a model: what matching and assessment need to know of its shape.
@@ -24,12 +26,13 @@ struct Features {
 
 Features extract_features(const Model& model, const FeatureOptions& options = {}, const Progress& progress = {});
 
-/// A model with everything computed once for it: features and the tree for closest points. Keeps a reference to the
-/// model.
+/// A model with everything computed once for it: features, the tree for closest points, and the table in which principal
+/// frames and nearest samples are looked up. Keeps a reference to the model.
 struct PreparedModel {
     const Model& model;
     Features features;
     ClosestPointTree tree;
+    PrincipalFrameTable table;
 };
 
 /// Throws InvalidInput, naming the file, if the model has no face.

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double nowhere = std::numeric_limits<double>::infinity();
 
-double sample_distance(const Ground& ground, const AreaSample& sample, const SimilarityTransform& ground_suspect,
+double sample_distance(const GroundSurface& ground, const AreaSample& sample, const SimilarityTransform& ground_suspect,
                        double limit, bool oriented) {
     const auto foot = ground.foot(ground_suspect.apply(sample.curvature.point), limit);
     if (!foot) return nowhere;
@@ -83,15 +83,14 @@ std::vector<int> spread_samples(const std::vector<AreaSample>& samples, int coun
     return which;
 }
 
-double quick_score(const Ground& ground, const PreparedModel& suspect, const std::vector<int>& which,
-                   const SimilarityTransform& ground_suspect, double tolerance, double at_least) {
-    const bool oriented = ground.model.model.oriented() && suspect.model.oriented();
+double quick_score(const GroundSurface& ground, bool oriented, const std::vector<AreaSample>& samples,
+                   const std::vector<int>& which, const SimilarityTransform& ground_suspect, double tolerance,
+                   double at_least) {
     double sum = 0.0;
     const double needed = at_least * which.size();
     for (std::size_t k = 0; k < which.size(); ++k) {
         if (sum + static_cast<double>(which.size() - k) < needed) break;
-        const double d =
-            sample_distance(ground, suspect.features.samples[which[k]], ground_suspect, tolerance, oriented);
+        const double d = sample_distance(ground, samples[which[k]], ground_suspect, tolerance, oriented);
         if (d <= tolerance) sum += 1.0 - (d / tolerance) * (d / tolerance);
     }
     return which.empty() ? 0.0 : sum / which.size();

@@ -45,8 +45,9 @@ Coverage coverage(const std::vector<AreaSample>& samples, const std::vector<doub
 std::vector<int> spread_samples(const std::vector<AreaSample>& samples, int count);
 
 /// The soft share of the given samples, abandoned (returning what was reached) as soon as it can no longer reach
-/// `at_least`.
-double quick_score(const Ground& ground, const PreparedModel& suspect, const std::vector<int>& which,
-                   const SimilarityTransform& ground_suspect, double tolerance, double at_least);
+/// `at_least`. `oriented`: normals are compared with their signs.
+double quick_score(const GroundSurface& ground, bool oriented, const std::vector<AreaSample>& samples,
+                   const std::vector<int>& which, const SimilarityTransform& ground_suspect, double tolerance,
+                   double at_least);
 
 }  // namespace umbilic

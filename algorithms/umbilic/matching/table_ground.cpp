@@ -6,6 +6,7 @@
 namespace umbilic {
 
 std::optional<GroundFoot> TableGround::foot(const Vector3& point, double limit) const {
+    if (table_.entries().empty()) return {};
     const Curvature& frame = table_.nearest(point).frame;
     const Vector3 offset = point - frame.point;
     const double x = offset.dot(frame.direction_max), y = offset.dot(frame.direction_min);

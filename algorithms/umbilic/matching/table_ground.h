@@ -8,7 +8,7 @@ namespace umbilic {
 
 /// A shape known by samples with principal frames: its surface near a point is the osculating paraboloid of the nearest
 /// sample. Errors are of the third order in the step; some ten times faster than the closest point of the surface, and
-/// all there is of a cloud. Keeps a reference to the table, which must not be empty.
+/// all there is of a cloud. Nothing lies on an empty table. Keeps a reference to the table.
 class TableGround : public GroundSurface {
 public:
     explicit TableGround(const PrincipalFrameTable& table) : table_(table) {}
