@@ -116,9 +116,9 @@ Alignment match(const PreparedModel& original, const PreparedModel& suspect, con
             const Progress part = progress.part(fraction, fraction + 0.1);
             fraction += 0.1;
             if (!settled(search))
-                consider(poses_by_principal_frame(original, suspect, options, third_order, swapped,
-                                                  part.part(0.0, 0.5)),
-                         refined_poses, curvature_error, part.part(0.5, 1.0));
+                consider(
+                    poses_by_principal_frame(original, suspect, options, third_order, swapped, part.part(0.0, 0.5)),
+                    refined_poses, curvature_error, part.part(0.5, 1.0));
         }
     }
     progress.report(0.9, "comparing poses");

@@ -29,6 +29,9 @@ constexpr double near_cutoff = 5e-3;
 constexpr std::size_t batch = 64;
 /// The larger model is the ground if it is longer by this factor; otherwise the original is.
 constexpr double larger = 1.5;
+/// An approached pose whose soft shares, at the tolerance of measured shapes, are below this part of the best ones so
+/// far is not worth the exact distances: those from the tables of samples stand for them.
+constexpr double unpromising = 0.25;
 /// A refined pose on which fewer of the points than this came to lie is dropped.
 constexpr double hopeless_share = 0.05;
 /// Models whose lengths differ by more than this factor after scaling are not compared: samples would be too sparse.
@@ -118,15 +121,19 @@ void PoseSearch::consider(const Proposals& proposals, int keep, double start_cut
             chosen.push_back(all[i]);
     }
 
-    const auto original_points = spread_points(original_.model.features.samples, refining_points);
-    const auto suspect_points = spread_points(suspect_.model.features.samples, refining_points);
+    const Points points{spread_points(original_.model.features.samples, refining_points),
+                        spread_points(suspect_.model.features.samples, refining_points)};
     for (std::size_t i = 0; i < chosen.size(); ++i) {
         progress.report(0.5 + 0.5 * i / chosen.size(), "refining poses");
-        ScoredPose pose = refined(chosen[i], original_points, suspect_points, start_cutoff, progress);
-        if (pose.refinement.share < hopeless_share) continue;
-        const auto same = std::find_if(poses_.begin(), poses_.end(), [&](const ScoredPose& other) {
-            return distance_.relative(pose.hypothesis.original_suspect, other.hypothesis.original_suspect) < same_pose;
-        });
+        ScoredPose pose{.hypothesis = chosen[i]};
+        if (!approach(pose, points, start_cutoff, progress)) continue;
+        const auto near = find_same(pose);
+        if (near != poses_.end() && !near->approximate) continue;
+        const double shares = soft_shares(pose, FitTolerance::measured);
+        pose.approximate = shares < unpromising * best_shares_;
+        best_shares_ = std::max(best_shares_, shares);
+        if (!pose.approximate && !refine_exactly(pose, points, near_cutoff, progress)) continue;
+        const auto same = find_same(pose);
         if (same == poses_.end())
             poses_.push_back(std::move(pose));
         else if (same->rank < pose.rank) {
@@ -138,45 +145,74 @@ void PoseSearch::consider(const Proposals& proposals, int keep, double start_cut
                      [](const ScoredPose& a, const ScoredPose& b) { return a.rank > b.rank; });
 }
 
-void PoseSearch::polish(std::size_t index, const Progress& progress) {
-    ScoredPose better = refined(poses_[index].hypothesis, all_points(original_.model.features.samples),
-                                all_points(suspect_.model.features.samples), near_cutoff, progress);
-    if (better.rank >= poses_[index].rank) poses_[index] = std::move(better);
+std::vector<ScoredPose>::iterator PoseSearch::find_same(const ScoredPose& pose) {
+    return std::find_if(poses_.begin(), poses_.end(), [&](const ScoredPose& other) {
+        return distance_.relative(pose.hypothesis.original_suspect, other.hypothesis.original_suspect) < same_pose;
+    });
 }
 
-ScoredPose PoseSearch::refined(const PoseHypothesis& hypothesis, const std::vector<WeightedPoint>& original_points,
-                               const std::vector<WeightedPoint>& suspect_points, double start_cutoff,
-                               const Progress& progress) const {
-    ScoredPose result{.hypothesis = hypothesis};
-    SimilarityTransform& pose = result.hypothesis.original_suspect;
-    const bool larger_suspect = suspect_is_larger(pose.scale);
-    const Ground& ground = larger_suspect ? suspect_ : original_;
-    const std::span<const WeightedPoint> points(larger_suspect ? original_points : suspect_points);
-    RefineOptions options{.scale = larger_suspect ? options_.scale.inverse() : options_.scale,
-                          .start_cutoff = start_cutoff};
-    SimilarityTransform ground_points = larger_suspect ? pose.inverse() : pose;
-    if (start_cutoff > near_cutoff && points.size() > approaching_points) {
-        options.maximum_steps = approaching_steps;
-        result.refinement = refine(larger_suspect ? suspect_samples_ : original_samples_,
-                                   points.first(approaching_points), ground_points, options, progress);
-        if (result.refinement.share < hopeless_share) return result;
-        ground_points = result.refinement.original_suspect;
-        options = {.scale = options.scale, .start_cutoff = near_cutoff};
-    }
-    result.refinement = refine(ground, points, ground_points, options, progress);
-    if (result.refinement.share < hopeless_share) return result;
-    pose = larger_suspect ? result.refinement.original_suspect.inverse() : result.refinement.original_suspect;
+void PoseSearch::polish(std::size_t index, const Progress& progress) {
+    const Points points{all_points(original_.model.features.samples), all_points(suspect_.model.features.samples)};
+    ScoredPose better{.hypothesis = poses_[index].hypothesis};
+    if (refine_exactly(better, points, near_cutoff, progress) &&
+        (better.rank >= poses_[index].rank || poses_[index].approximate))
+        poses_[index] = std::move(better);
+}
 
-    result.length = length(pose.scale);
-    const double stated = stated_tolerance(pose.scale);
-    const double limit = options_.tolerance.value_or(FitTolerance::resembling * result.length + stated);
-    result.suspect_distances = sample_distances(original_, suspect_.model, pose, limit);
-    result.original_distances = sample_distances(suspect_, original_.model, pose.inverse(), limit / pose.scale);
-    for (double& d : result.original_distances) d *= pose.scale;
-    const double fine = options_.tolerance.value_or(FitTolerance::reapproximated * result.length + stated);
-    result.rank = coverage(suspect_.model.features.samples, result.suspect_distances, fine).soft +
-                  coverage(original_.model.features.samples, result.original_distances, fine).soft;
-    return result;
+bool PoseSearch::lay(ScoredPose& scored, const GroundSurface& ground, std::span<const WeightedPoint> points,
+                     const RefineOptions& options, const Progress& progress) const {
+    SimilarityTransform& pose = scored.hypothesis.original_suspect;
+    const bool larger_suspect = suspect_is_larger(pose.scale);
+    scored.refinement = refine(ground, points, larger_suspect ? pose.inverse() : pose, options, progress);
+    if (scored.refinement.share < hopeless_share) return false;
+    const SimilarityTransform& ground_points = scored.refinement.original_suspect;
+    pose = larger_suspect ? ground_points.inverse() : ground_points;
+    return true;
+}
+
+bool PoseSearch::approach(ScoredPose& pose, const Points& points, double start_cutoff, const Progress& progress) const {
+    const bool larger_suspect = suspect_is_larger(pose.hypothesis.original_suspect.scale);
+    const std::span<const WeightedPoint> all(larger_suspect ? points.original : points.suspect);
+    const RefineOptions options{.scale = larger_suspect ? options_.scale.inverse() : options_.scale,
+                                .start_cutoff = start_cutoff,
+                                .maximum_steps = approaching_steps};
+    if (!lay(pose, larger_suspect ? suspect_samples_ : original_samples_,
+             all.first(std::min(approaching_points, all.size())), options, progress))
+        return false;
+    measure(pose, original_samples_, suspect_samples_);
+    return true;
+}
+
+bool PoseSearch::refine_exactly(ScoredPose& pose, const Points& points, double start_cutoff,
+                                const Progress& progress) const {
+    const bool larger_suspect = suspect_is_larger(pose.hypothesis.original_suspect.scale);
+    const RefineOptions options{.scale = larger_suspect ? options_.scale.inverse() : options_.scale,
+                                .start_cutoff = start_cutoff};
+    if (!lay(pose, larger_suspect ? suspect_ : original_, larger_suspect ? points.original : points.suspect, options,
+             progress))
+        return false;
+    measure(pose, original_, suspect_);
+    return true;
+}
+
+void PoseSearch::measure(ScoredPose& scored, const GroundSurface& original, const GroundSurface& suspect) const {
+    const SimilarityTransform& pose = scored.hypothesis.original_suspect;
+    const bool oriented = original_.model.model.oriented() && suspect_.model.model.oriented();
+    scored.length = length(pose.scale);
+    const double limit =
+        options_.tolerance.value_or(FitTolerance::resembling * scored.length + stated_tolerance(pose.scale));
+    scored.suspect_distances = sample_distances(original, oriented, suspect_.model.features.samples, pose, limit);
+    scored.original_distances =
+        sample_distances(suspect, oriented, original_.model.features.samples, pose.inverse(), limit / pose.scale);
+    for (double& d : scored.original_distances) d *= pose.scale;
+    scored.rank = soft_shares(scored, FitTolerance::reapproximated);
+}
+
+double PoseSearch::soft_shares(const ScoredPose& pose, double relative_tolerance) const {
+    const double stated = stated_tolerance(pose.hypothesis.original_suspect.scale);
+    const double tolerance = options_.tolerance.value_or(relative_tolerance * pose.length + stated);
+    return coverage(suspect_.model.features.samples, pose.suspect_distances, tolerance).soft +
+           coverage(original_.model.features.samples, pose.original_distances, tolerance).soft;
 }
 
 }  // namespace umbilic

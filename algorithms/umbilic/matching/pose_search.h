@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <umbilic/matching/match.h>
@@ -18,8 +19,9 @@ struct ScoredPose {
     Refinement refinement;                   ///< of the smaller model on the larger one
     std::vector<double> suspect_distances;   ///< sample by sample, mm of the original
     std::vector<double> original_distances;  ///< of the original's samples from the suspect, mm of the original
-    double length = 0.0;  ///< of the smaller of the original and the moved suspect, mm of the original
-    double rank = 0.0;    ///< soft shares of both models within the re-approximation tolerance, in [0, 2]
+    bool approximate = false;  ///< distances are those of the table of samples: the pose was not worth more
+    double length = 0.0;       ///< of the smaller of the original and the moved suspect, mm of the original
+    double rank = 0.0;         ///< soft shares of both models within the re-approximation tolerance, in [0, 2]
 };
 
 /// Collects hypotheses from any method and keeps the best refined poses. Hypotheses are scored by one rule: the share
@@ -50,9 +52,20 @@ public:
     bool suspect_is_larger(double scale) const;
 
 private:
-    ScoredPose refined(const PoseHypothesis& hypothesis, const std::vector<WeightedPoint>& original_points,
-                       const std::vector<WeightedPoint>& suspect_points, double start_cutoff,
-                       const Progress& progress) const;
+    /// Points of either model, of which the smaller one's are laid onto the other.
+    struct Points {
+        std::vector<WeightedPoint> original, suspect;
+    };
+    /// Brings a rough pose near with a few points on the tables of samples; false if too little comes to lie.
+    bool approach(ScoredPose& pose, const Points& points, double start_cutoff, const Progress& progress) const;
+    /// Refines a near pose on the surfaces themselves and measures it; false if too little comes to lie.
+    bool refine_exactly(ScoredPose& pose, const Points& points, double start_cutoff, const Progress& progress) const;
+    bool lay(ScoredPose& pose, const GroundSurface& ground, std::span<const WeightedPoint> points,
+             const RefineOptions& options, const Progress& progress) const;
+    std::vector<ScoredPose>::iterator find_same(const ScoredPose& pose);
+    /// Distances of all samples of both models.
+    void measure(ScoredPose& pose, const GroundSurface& original, const GroundSurface& suspect) const;
+    double soft_shares(const ScoredPose& pose, double relative_tolerance) const;
     double length(double scale) const;
 
     Ground original_;
@@ -63,6 +76,7 @@ private:
     PoseDistance distance_;
     double original_length_ = 0.0;
     double suspect_length_ = 0.0;
+    double best_shares_ = 0.0;  ///< of approached poses, see unpromising
     std::vector<ScoredPose> poses_;
 };
 

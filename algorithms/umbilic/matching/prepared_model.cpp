@@ -7,7 +7,8 @@ namespace umbilic {
 
 namespace {
 
-/// Part of the features that the search for umbilics takes, and of all that features take; for the progress report only.
+/// Part of the features that the search for umbilics takes, and of all that features take; for the progress report
+/// only.
 constexpr double umbilics_share = 0.8, features_share = 0.8;
 
 }  // namespace

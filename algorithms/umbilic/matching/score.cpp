@@ -39,8 +39,12 @@ std::optional<GroundFoot> Ground::foot(const Vector3& point, double limit) const
 
 std::vector<double> sample_distances(const Ground& ground, const PreparedModel& suspect,
                                      const SimilarityTransform& ground_suspect, double limit) {
-    const auto& samples = suspect.features.samples;
-    const bool oriented = ground.model.model.oriented() && suspect.model.oriented();
+    return sample_distances(ground, ground.model.model.oriented() && suspect.model.oriented(), suspect.features.samples,
+                            ground_suspect, limit);
+}
+
+std::vector<double> sample_distances(const GroundSurface& ground, bool oriented, const std::vector<AreaSample>& samples,
+                                     const SimilarityTransform& ground_suspect, double limit) {
     std::vector<double> distances(samples.size());
     tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t i) {
         distances[i] = sample_distance(ground, samples[i], ground_suspect, limit, oriented);

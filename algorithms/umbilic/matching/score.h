@@ -30,6 +30,10 @@ struct Ground : GroundSurface {
 std::vector<double> sample_distances(const Ground& ground, const PreparedModel& suspect,
                                      const SimilarityTransform& ground_suspect, double limit);
 
+/// The same on any ground; `oriented`: normals are compared with their signs.
+std::vector<double> sample_distances(const GroundSurface& ground, bool oriented, const std::vector<AreaSample>& samples,
+                                     const SimilarityTransform& ground_suspect, double limit);
+
 /// What distances say at one tolerance; shares are weighted by area.
 struct Coverage {
     double share = 0.0;  ///< within the tolerance
