@@ -166,6 +166,8 @@ Json alignment_json(const Alignment& alignment) {
     }
     json["symmetries"] = Json::array();
     for (const SimilarityTransform& pose : alignment.symmetries) json["symmetries"].push_back(transform_json(pose));
+    json["copies"] = Json::array();
+    for (const SimilarityTransform& pose : alignment.copies) json["copies"].push_back(transform_json(pose));
     return json;
 }
 

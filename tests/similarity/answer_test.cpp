@@ -151,6 +151,10 @@ TEST_F(AnswerTest, Contains) {
     const Answer a = ask();
     EXPECT_EQ(a.kind, AnswerClass::contains);
     EXPECT_TRUE(has(a, "37.0 % of the suspect")) << a.text;
+    EXPECT_FALSE(has(a, "more cop")) << a.text;
+    alignment.copies = {alignment.original_suspect, support::random_similarity(5, 1.0, false),
+                        support::random_similarity(7, 1.0, false)};
+    EXPECT_TRUE(has(ask(), "; 2 more copies of it stand elsewhere in the suspect")) << ask().text;
 }
 
 TEST_F(AnswerTest, Partly) {

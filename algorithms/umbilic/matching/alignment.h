@@ -43,6 +43,8 @@ struct Alignment {
     std::vector<PoseCandidate> runners_up;        ///< other poses, best first
     std::vector<SimilarityTransform> symmetries;  ///< poses that fit equally well: composed with the inverse of the
                                                   ///< winner, symmetries of the original
+    std::vector<SimilarityTransform> copies;      ///< one pose a place, see copies.h; more than one where the original
+                                                  ///< stands in the suspect, or the suspect in the original, repeatedly
 
     bool found() const { return status == AlignmentStatus::found; }
 };

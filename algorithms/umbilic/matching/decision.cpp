@@ -8,6 +8,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <umbilic/matching/copies.h>
 #include <umbilic/matching/evidence.h>
 #include <umbilic/matching/tolerances.h>
 
@@ -15,8 +16,7 @@ namespace umbilic {
 
 namespace {
 
-/// Share of a model's area that counts as all of it: samples on borders and in notches of re-approximated copies.
-constexpr double whole = 0.95;
+constexpr double whole = whole_share;
 /// A coarser tolerance must raise the coverage by this factor to be preferred.
 constexpr double worthwhile = 1.1;
 /// Satisfied equations that a pose uses up, and those that must be left over.
@@ -174,17 +174,23 @@ void complete_symmetries(const PoseSearch& search, const SimilarityTransform& wi
         return std::any_of(known.begin(), known.end(),
                            [&](const SimilarityTransform& other) { return !search.distance().different(pose, other); });
     };
-    const auto& samples = search.suspect().model.features.samples;
+    // The model that is covered more says whether a pose is as good: of an assembly little may lie on the original.
+    const bool by_original = fit.original.share > fit.suspect.share;
+    const auto share = [&](const SimilarityTransform& pose) {
+        const Ground &ground = by_original ? search.suspect() : search.original(),
+                     &laid = by_original ? search.original() : search.suspect();
+        const double tolerance = by_original ? fit.tolerance / pose.scale : fit.tolerance;
+        return coverage(laid.model.features.samples,
+                        sample_distances(ground, laid.model, by_original ? pose.inverse() : pose, tolerance), tolerance)
+            .share;
+    };
     for (std::size_t i = 1; i < known.size(); ++i)
         for (std::size_t j = 1; j < known.size(); ++j) {
             if (symmetries.size() >= most_symmetries) return;
             progress.check();
             const SimilarityTransform next = compose(compose(known[i], winner.inverse()), known[j]);
             if (is_known(next)) continue;
-            const Coverage covered =
-                coverage(samples, sample_distances(search.original(), search.suspect().model, next, fit.tolerance),
-                         fit.tolerance);
-            if (covered.share < fit.suspect.share - equal_share) continue;
+            if (share(next) < std::max(fit.suspect.share, fit.original.share) - equal_share) continue;
             known.push_back(next);
             symmetries.push_back(next);
         }

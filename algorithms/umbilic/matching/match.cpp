@@ -10,6 +10,7 @@
 #include <umbilic/matching/by_moments.h>
 #include <umbilic/matching/by_principal_frame.h>
 #include <umbilic/matching/by_umbilics.h>
+#include <umbilic/matching/copies.h>
 #include <umbilic/matching/decision.h>
 #include <umbilic/matching/horn.h>
 #include <umbilic/matching/pose_search.h>
@@ -123,6 +124,7 @@ Alignment match(const PreparedModel& original, const PreparedModel& suspect, con
     }
     progress.report(0.9, "comparing poses");
     Alignment alignment = decide_alignment(search, tried, progress.part(0.9, 1.0));
+    alignment.copies = copies(alignment, original, suspect);
     if (options.scope == ScopeChoice::global && alignment.status == AlignmentStatus::found &&
         alignment.scope == MatchScope::partial) {
         alignment.status = AlignmentStatus::compatible;

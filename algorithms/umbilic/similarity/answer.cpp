@@ -102,6 +102,18 @@ Answer no_pose(const Alignment& alignment) {
     return result;
 }
 
+/// "; 2 more copies of the original stand elsewhere in the suspect", if so.
+std::string further_copies(const Alignment& alignment, AnswerClass kind) {
+    if (alignment.copies.size() < 2) return "";
+    const std::size_t more = alignment.copies.size() - 1;
+    const std::string count = std::to_string(more) + " more ";
+    if (kind == AnswerClass::contains)
+        return "; " + count + (more == 1 ? "copy of it stands" : "copies of it stand") + " elsewhere in the suspect";
+    if (kind == AnswerClass::piece)
+        return "; it fits as well at " + count + (more == 1 ? "place" : "places") + " of the original";
+    return "";
+}
+
 std::string caveat(const Alignment& alignment) {
     switch (alignment.status) {
         case AlignmentStatus::ambiguous:
@@ -174,7 +186,7 @@ Answer answer(const Model& original, const Model& suspect, const Alignment& alig
                       " of the original's within that of the suspect; the rest of the suspect deviates by up to " +
                       in_mm(largest_distance(on_original));
     }
-    result.text += caveat(alignment);
+    result.text += further_copies(alignment, result.kind) + caveat(alignment);
     return result;
 }
 
