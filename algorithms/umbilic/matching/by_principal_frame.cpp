@@ -136,9 +136,9 @@ struct Search {
         const double fixed = tolerance_by_extent * pose.scale * suspect.extent() + tolerance_by_step * original.step();
         for (std::size_t k = 0; k < probes.size(); ++k) {
             const double tolerance = tolerance_by_distance * pose.scale * (probes[k] - seed).norm() + fixed;
-            const double error = original.approximate_distance(pose.apply(probes[k])) / tolerance;
-            if (error < 1.0)
-                sum += 1.0 - error * error;
+            const std::optional<double> distance = original.approximate_distance(pose.apply(probes[k]), tolerance);
+            if (distance)
+                sum += 1.0 - *distance * *distance / (tolerance * tolerance);
             else if (++outliers > outliers_at_once + outlier_share * static_cast<double>(k + 1))
                 return -1.0;
         }

@@ -32,6 +32,9 @@ constexpr double larger = 1.5;
 /// An approached pose whose soft shares, at the tolerance of measured shapes, are below this part of the best ones so
 /// far is not worth the exact distances: those from the tables of samples stand for them.
 constexpr double unpromising = 0.25;
+/// A refined pose whose residuals are below this part of the length, the rounding of files, gains nothing from more
+/// points.
+constexpr double rounding = 1e-10;
 /// A refined pose on which fewer of the points than this came to lie is dropped.
 constexpr double hopeless_share = 0.05;
 /// Models whose lengths differ by more than this factor after scaling are not compared: samples would be too sparse.
@@ -152,6 +155,8 @@ std::vector<ScoredPose>::iterator PoseSearch::find_same(const ScoredPose& pose) 
 }
 
 void PoseSearch::polish(std::size_t index, const Progress& progress) {
+    const ScoredPose& pose = poses_[index];
+    if (pose.refinement.converged && pose.refinement.rms <= rounding * pose.length && !pose.approximate) return;
     const Points points{all_points(original_.model.features.samples), all_points(suspect_.model.features.samples)};
     ScoredPose better{.hypothesis = poses_[index].hypothesis};
     if (refine_exactly(better, points, near_cutoff, progress) &&

@@ -132,22 +132,27 @@ std::pair<int, int> PrincipalFrameTable::angle_range(double low, double high) co
     return {static_cast<int>(first - entries_.begin()), static_cast<int>(last - entries_.begin())};
 }
 
-const PrincipalFrameTable::Entry& PrincipalFrameTable::nearest(const Vector3& point) const {
+const PrincipalFrameTable::Entry* PrincipalFrameTable::nearest(const Vector3& point, double limit) const {
+    if (entries_.empty()) return nullptr;
     unsigned nearest = 0;
     double squared = 0.0;
     nanoflann::KNNResultSet<double, unsigned> result(1);
     result.init(&nearest, &squared);
+    squared = limit * limit;  // the set looks for what is nearer than this
     index_->tree.findNeighbors(result, point.data(), {});
-    return entries_[nearest];
+    return result.size() == 0 ? nullptr : &entries_[nearest];
 }
 
-double PrincipalFrameTable::approximate_distance(const Vector3& point) const {
-    const Curvature& frame = nearest(point).frame;
-    const Vector3 offset = point - frame.point;
+std::optional<double> PrincipalFrameTable::approximate_distance(const Vector3& point, double limit) const {
+    // Beyond this, either the tangential offset is above the border's or the height above the limit.
+    const Entry* entry = nearest(point, std::hypot(border_steps * step_, limit));
+    if (!entry) return {};
+    const Vector3 offset = point - entry->frame.point;
     const double squared = offset.squaredNorm();
-    const double height = offset.dot(frame.normal);
+    const double height = offset.dot(entry->frame.normal);
     const double tangential = std::sqrt(std::max(0.0, squared - height * height));
-    return tangential <= PrincipalFrameTable::border_steps * step_ ? std::abs(height) : std::sqrt(squared);
+    const double distance = tangential <= border_steps * step_ ? std::abs(height) : std::sqrt(squared);
+    return distance <= limit ? std::optional(distance) : std::nullopt;
 }
 
 }  // namespace umbilic

@@ -57,12 +57,14 @@ public:
     /// Twice the root mean square distance of the samples from their centroid, mm.
     double extent() const { return extent_; }
 
-    /// The sample nearest to a point of space; the table must not be empty.
-    const Entry& nearest(const Vector3& point) const;
+    /// The sample nearest to a point of space, or null if none is within `limit` (mm): a small limit ends the search of
+    /// far points at once.
+    const Entry* nearest(const Vector3& point, double limit) const;
 
     /// Distance of a point from the surface, from its nearest sample: to that sample's tangent plane, or in full where
-    /// the point lies beyond the border (tangential offset above two steps). Accurate to the sagitta over one step.
-    double approximate_distance(const Vector3& point) const;
+    /// the point lies beyond the border (tangential offset above border_steps). Accurate to the sagitta over one step;
+    /// nothing if it exceeds `limit`.
+    std::optional<double> approximate_distance(const Vector3& point, double limit) const;
 
 private:
     void arrange();

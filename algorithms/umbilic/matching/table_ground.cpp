@@ -5,12 +5,22 @@
 
 namespace umbilic {
 
+namespace {
+
+/// The paraboloid is trusted where it departs from its tangent plane by less than it extends, and leans by less than 45
+/// degrees: no point within a limit of such a one is farther from its sample than twice limit and border together.
+constexpr double reach = 2.0;
+
+}  // namespace
+
 std::optional<GroundFoot> TableGround::foot(const Vector3& point, double limit) const {
-    if (table_.entries().empty()) return {};
-    const Curvature& frame = table_.nearest(point).frame;
+    const double border = PrincipalFrameTable::border_steps * table_.step();
+    const PrincipalFrameTable::Entry* entry = table_.nearest(point, reach * (limit + border));
+    if (!entry) return {};
+    const Curvature& frame = entry->frame;
     const Vector3 offset = point - frame.point;
     const double x = offset.dot(frame.direction_max), y = offset.dot(frame.direction_min);
-    if (std::hypot(x, y) > PrincipalFrameTable::border_steps * table_.step()) {
+    if (std::hypot(x, y) > border) {
         const double distance = offset.norm();
         if (distance > limit) return {};
         return GroundFoot{frame.point, frame.normal, distance, true};
