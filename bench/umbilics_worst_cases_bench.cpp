@@ -73,7 +73,7 @@ void threads(benchmark::State& state) {
     state.SetLabel(state.range(0) == 0 ? "smooth 64x64" : "rough 64x64");
 }
 
-const int registered = [] {
+void register_worst_cases() {
     benchmark::RegisterBenchmark("rough_20x20", [](benchmark::State& state) {
         search(state, support::rough_bicubic(20, 7), 1);
     })->Unit(benchmark::kMillisecond);
@@ -81,8 +81,7 @@ const int registered = [] {
         benchmark::RegisterBenchmark(one.name.c_str(), [one](benchmark::State& state) {
             search(state, one.surface, 1);
         })->Unit(benchmark::kMillisecond);
-    return 0;
-}();
+}
 
 BENCHMARK(threads)
     ->ArgsProduct({{0, 1}, {1, 2}})
@@ -92,3 +91,9 @@ BENCHMARK(threads)
 
 }  // namespace
 }  // namespace umbilic
+
+int main(int count, char** arguments) {
+    benchmark::Initialize(&count, arguments);
+    umbilic::register_worst_cases();
+    benchmark::RunSpecifiedBenchmarks();
+}

@@ -146,7 +146,8 @@ public:
     }
 
     /// Newton's method in extended precision with central differences; none if it leaves `reach` around the start.
-    std::optional<Eigen::Matrix<Real, 2, 1>> newton(const Vector2& start, double reach, Matrix2* slope) const {
+    std::optional<Eigen::Matrix<Real, 2, 1>> newton(const Vector2& start, double reach, double accuracy,
+                                                    Matrix2* slope) const {
         Eigen::Matrix<Real, 2, 1> at = start.cast<Real>();
         Eigen::Matrix<Real, 2, 2> jacobian;
         const Real h = 1e-5L;
@@ -162,7 +163,7 @@ public:
             last = change.norm();
             if (last < 1e-16L) break;
         }
-        if (last > 1e-12L) return std::nullopt;
+        if (last > accuracy) return std::nullopt;
         if (slope) *slope = jacobian.cast<double>();
         return at;
     }
@@ -231,7 +232,7 @@ private:
     /// Follows Newton's method from the middle of a cell, at most `cells` half sides far.
     bool accept(const Vector2& middle, const Vector2& half, double cells) {
         Matrix2 slope;
-        const auto found = piece_.newton(middle, cells * half.maxCoeff(), &slope);
+        const auto found = piece_.newton(middle, cells * half.maxCoeff(), polished_accuracy, &slope);
         if (!found) return false;
         const Vector2 local = found->cast<double>();
         if (local.cwiseAbs().maxCoeff() > 1 + outside) return true;  // the neighbouring piece's
@@ -269,11 +270,11 @@ SampledUmbilics sample_umbilics(const NurbsSurface& surface) {
     return result;
 }
 
-std::optional<Vector2> polished_umbilic(const NurbsSurface& surface, const Vector2& at) {
+std::optional<Vector2> polished_umbilic(const NurbsSurface& surface, const Vector2& at, double accuracy) {
     const Piece piece(surface, surface.u_knots().span(at.x()), surface.v_knots().span(at.y()));
     const ParameterBox whole = surface.domain(), part = piece.domain();
     const double reach = 1e-3 * std::min(whole.u.length() / part.u.length(), whole.v.length() / part.v.length());
-    const auto found = piece.newton(piece.local(at), reach, nullptr);
+    const auto found = piece.newton(piece.local(at), reach, accuracy, nullptr);
     if (!found) return std::nullopt;
     return Vector2(part.u.middle() + static_cast<double>((*found)[0]) * part.u.length() / 2,
                    part.v.middle() + static_cast<double>((*found)[1]) * part.v.length() / 2);

@@ -31,9 +31,13 @@ struct SampledUmbilics {
 /// Bernstein basis or the bounds of the search under test enters. Umbilics common to pieces are listed once.
 SampledUmbilics sample_umbilics(const NurbsSurface& surface);
 
-/// Newton's method from `at` on the piece there, in extended precision; none if it does not converge within a
-/// thousandth of the domain.
-std::optional<Vector2> polished_umbilic(const NurbsSurface& surface, const Vector2& at);
+/// Accuracy that extended precision gives to an umbilic, relative to the piece, unless curvatures hardly vary.
+inline constexpr double polished_accuracy = 1e-12;
+
+/// Newton's method from `at` on the piece there, in extended precision; none if its steps do not fall below `accuracy`
+/// within a thousandth of the domain.
+std::optional<Vector2> polished_umbilic(const NurbsSurface& surface, const Vector2& at,
+                                        double accuracy = polished_accuracy);
 
 /// Umbilics listed by sample_umbilics() nearer than this, relative to the domain, are one.
 inline constexpr double sampled_distance = 1e-9;

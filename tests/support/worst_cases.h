@@ -12,6 +12,7 @@ namespace umbilic::support {
 enum class Expected {
     line,               ///< a line of umbilics, or the surface recognised
     region,             ///< a region
+    resolved,           ///< isolated umbilics, each proved
     resolved_or_index,  ///< isolated umbilics or clusters, each with its index
     anything_bounded    ///< whatever is honest
 };
@@ -22,6 +23,8 @@ struct WorstCase {
     Expected expected = Expected::anything_bounded;
     /// Boxes the search may visit.
     long boxes = 0;
+    /// Relative to the domain: how well extended precision can tell the place of an umbilic.
+    double place_accuracy = 1e-12;
 };
 
 /// Surfaces on which searches by subdivision explode or invent umbilics: planes, spheres, lines and regions of

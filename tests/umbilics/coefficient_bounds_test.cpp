@@ -17,6 +17,7 @@
 
 #include <support/random_faces.h>
 #include <support/surfaces.h>
+#include <umbilic/bernstein/coefficient_errors.h>
 #include <umbilic/bernstein/rounding.h>
 #include <umbilic/bernstein/subdivision.h>
 #include <umbilic/nurbs/bezier_patch.h>
@@ -220,7 +221,7 @@ Net exact_patch(const NurbsSurface& surface, int u_span, int v_span, const Vecto
 
 /// Largest errors seen, as shares of their bounds.
 struct Shares {
-    double extraction = 0.0, rounding = 0.0, input = 0.0, edge = 0.0, halving = 0.0, restriction = 0.0;
+    double extraction = 0.0, rounding = 0.0, input = 0.0, edge = 0.0, halving = 0.0, restriction = 0.0, single = 0.0;
 };
 
 double share(const Exact& error, double bound) {
@@ -242,29 +243,28 @@ NurbsSurface within_an_ulp(const NurbsSurface& surface, std::mt19937& random) {
     return NurbsSurface(surface.u_knots(), surface.v_knots(), std::move(poles), std::move(weights));
 }
 
+/// de Casteljau's algorithm; keeps [0, t] or [t, 1].
+void keep(std::vector<Exact>& e, CoefficientShape shape, bool along_u, const Exact& t, bool low_part) {
+    const int rows = shape.p + 1, length = shape.row_length();
+    const int n = along_u ? shape.p : shape.q, lines = along_u ? length : rows;
+    const auto at = [&](int line, int k) -> Exact& { return along_u ? e[k * length + line] : e[line * length + k]; };
+    for (int line = 0; line < lines; ++line)
+        for (int step = 1; step <= n; ++step) {
+            if (low_part)
+                for (int k = n; k >= step; --k) at(line, k) = (1 - t) * at(line, k - 1) + t * at(line, k);
+            else
+                for (int k = 0; k <= n - step; ++k) at(line, k) = (1 - t) * at(line, k) + t * at(line, k + 1);
+        }
+}
+
 /// The coefficients in halves chosen at random, and in a part that is no dyadic box, beside exact ones.
 void expect_subdivision_within_bounds(const std::vector<double>& start, std::vector<Exact> exact,
                                       CoefficientShape shape, double bound, std::mt19937& random, Shares& shares) {
-    const int rows = shape.p + 1, length = shape.row_length();
     std::vector<double> c = start, first(c.size());
     const auto largest = [](const std::vector<double>& values) {
         double result = 0.0;
         for (const double value : values) result = std::max(result, std::abs(value));
         return result;
-    };
-    /// de Casteljau's algorithm; keeps [0, t] or [t, 1].
-    const auto keep = [&](std::vector<Exact>& e, bool along_u, const Exact& t, bool low_part) {
-        const int n = along_u ? shape.p : shape.q, lines = along_u ? length : rows;
-        const auto at = [&](int line, int k) -> Exact& {
-            return along_u ? e[k * length + line] : e[line * length + k];
-        };
-        for (int line = 0; line < lines; ++line)
-            for (int step = 1; step <= n; ++step) {
-                if (low_part)
-                    for (int k = n; k >= step; --k) at(line, k) = (1 - t) * at(line, k - 1) + t * at(line, k);
-                else
-                    for (int k = 0; k <= n - step; ++k) at(line, k) = (1 - t) * at(line, k) + t * at(line, k + 1);
-            }
     };
     std::vector<Exact> part = exact;
     double error = bound;
@@ -273,7 +273,7 @@ void expect_subdivision_within_bounds(const std::vector<double>& start, std::vec
         error = (error + gamma_bound(along_u ? shape.p : shape.q) * largest(c)) * bound_slack;
         (along_u ? halve_u : halve_v)(shape, c.data(), first.data());
         if (low_part) c = first;
-        keep(part, along_u, Exact(0.5), low_part);
+        keep(part, shape, along_u, Exact(0.5), low_part);
         for (std::size_t k = 0; k < c.size(); ++k)
             shares.halving = std::max(shares.halving, share(c[k] - part[k], error));
     }
@@ -288,12 +288,56 @@ void expect_subdivision_within_bounds(const std::vector<double>& start, std::vec
     const double before = largest(c);
     const double factor = restrict_u(shape, c.data(), u[0], u[1]) * restrict_v(shape, c.data(), v[0], v[1]);
     error = (bound * factor + gamma_bound(6 * (shape.p + shape.q)) * factor * before) * bound_slack;
-    keep(part, true, Exact(u[1]), true);
-    keep(part, true, Exact(u[0]) / Exact(u[1]), false);
-    keep(part, false, Exact(v[1]), true);
-    keep(part, false, Exact(v[0]) / Exact(v[1]), false);
+    keep(part, shape, true, Exact(u[1]), true);
+    keep(part, shape, true, Exact(u[0]) / Exact(u[1]), false);
+    keep(part, shape, false, Exact(v[1]), true);
+    keep(part, shape, false, Exact(v[0]) / Exact(v[1]), false);
     for (std::size_t k = 0; k < c.size(); ++k)
         shares.restriction = std::max(shares.restriction, share(c[k] - part[k], error));
+}
+
+/// Bounds for single coefficients, in halves and in a part inside.
+void expect_single_bounds(const TensorPolynomial& computed, const std::vector<Exact>& wanted, std::mt19937& random,
+                          Shares& shares) {
+    const CoefficientShape shape{computed.u_degree, computed.v_degree};
+    std::vector<double> start(shape.size()), bounds(shape.size());
+    computed.bernstein_coefficients(start);
+    computed.bernstein_errors(bounds);
+    const auto check = [&](const std::vector<double>& c, const std::vector<Exact>& exact,
+                           const std::vector<double>& errors) {
+        for (std::size_t k = 0; k < c.size(); ++k)
+            shares.single = std::max(shares.single, share(c[k] - exact[k], errors[k]));
+    };
+    check(start, wanted, bounds);
+    std::vector<double> c = start, errors = bounds, first(c.size());
+    std::vector<Exact> exact = wanted;
+    for (int level = 0; level < 12; ++level) {
+        const bool along_u = random() % 2, low_part = random() % 2;
+        halve_errors(shape, along_u, c.data(), errors.data(), first.data());
+        if (low_part) errors = first;
+        (along_u ? halve_u : halve_v)(shape, c.data(), first.data());
+        if (low_part) c = first;
+        keep(exact, shape, along_u, Exact(0.5), low_part);
+        check(c, exact, errors);
+    }
+    std::uniform_real_distribution<double> parameter(0.0, 1.0), magnitude(-8.0, 0.0);
+    const auto part = [&] {
+        const double length = std::pow(10.0, magnitude(random)), low = parameter(random) * (1.0 - length);
+        return ParameterInterval{low, low + length};
+    };
+    const ParameterBox box{part(), part()};
+    c = start;
+    errors = bounds;
+    exact = wanted;
+    restrict_u(shape, c.data(), box.u.low, box.u.high);
+    restrict_v(shape, c.data(), box.v.low, box.v.high);
+    restrict_errors(shape, start.data(), c.data(), box, errors.data());
+    for (const bool along_u : {true, false}) {
+        const ParameterInterval& side = along_u ? box.u : box.v;
+        keep(exact, shape, along_u, Exact(side.high), true);
+        keep(exact, shape, along_u, Exact(side.low) / Exact(side.high), false);
+    }
+    check(c, exact, errors);
 }
 
 void measure(const NurbsSurface& surface, unsigned seed, Shares& shares) {
@@ -339,6 +383,16 @@ void measure(const NurbsSurface& surface, unsigned seed, Shares& shares) {
         }
         expect_subdivision_within_bounds(c, std::move(b), shape, bound.rounding, random, shares);
     }
+    // Bounds for single coefficients hold for all surfaces that round to the given one. Every third patch: slow.
+    UmbilicEquations single;
+    single.form_fundamental_with_errors(surface, patch, input_rounding(surface));
+    single.form_umbilic();
+    for (int f = 0; f < 2 && seed % 3 == 0; ++f) {
+        const TensorPolynomial& polynomial = f == 0 ? single.a() : single.b();
+        std::vector<Exact> b = bernstein(*rounded[f], polynomial.u_degree, polynomial.v_degree);
+        for (Exact& value : b) value *= scale;
+        expect_single_bounds(polynomial, b, random, shares);
+    }
     // The pointwise enclosure holds the exact value.
     std::uniform_real_distribution<double> parameter(-0.05, 1.05);
     for (int k = 0; k < 3; ++k) {
@@ -355,7 +409,8 @@ void measure(const NurbsSurface& surface, unsigned seed, Shares& shares) {
         }
     }
     // The restriction to an edge.
-    const PatchEdge edge = std::array{PatchEdge::u_low, PatchEdge::u_high, PatchEdge::v_low, PatchEdge::v_high}[random() % 4];
+    const PatchEdge edge =
+        std::array{PatchEdge::u_low, PatchEdge::u_high, PatchEdge::v_low, PatchEdge::v_high}[random() % 4];
     const EdgeEquations pair = equations.edge_equations(edge);
     const bool across_u = edge == PatchEdge::u_low || edge == PatchEdge::u_high;
     const bool high = edge == PatchEdge::u_high || edge == PatchEdge::v_high;
@@ -429,15 +484,16 @@ TEST_P(CoefficientBounds, HoldAgainstMultiprecision) {
     }
     std::printf(
         "%s, %u patches: largest share of the bound used by extraction %.3f, coefficients %.4f, perturbed input %.3f, "
-        "edges %.4f, halving %.4f, parts %.4f\n",
+        "edges %.4f, halving %.4f, parts %.4f, single %.4f\n",
         GetParam().name, GetParam().count, shares.extraction, shares.rounding, shares.input, shares.edge,
-        shares.halving, shares.restriction);
+        shares.halving, shares.restriction, shares.single);
     EXPECT_LE(shares.extraction, 1.0);
     EXPECT_LE(shares.rounding, 1.0);
     EXPECT_LE(shares.input, 1.0);
     EXPECT_LE(shares.edge, 1.0);
     EXPECT_LE(shares.halving, 1.0);
     EXPECT_LE(shares.restriction, 1.0);
+    EXPECT_LE(shares.single, 1.0);
     // The measure itself works: nothing is computed without an error.
     EXPECT_GT(shares.rounding, 0.0);
     EXPECT_GT(shares.input, shares.rounding * 1e-6);

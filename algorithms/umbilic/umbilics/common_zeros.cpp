@@ -9,6 +9,7 @@
 
 #include <Eigen/LU>
 
+#include <umbilic/bernstein/coefficient_errors.h>
 #include <umbilic/bernstein/rounding.h>
 
 namespace umbilic {
@@ -129,14 +130,10 @@ CommonZeroSearch::Bounds CommonZeroSearch::load(const ParameterBox& part) {
             restrict_u(shape_, c, part.u.low, part.u.high);
             restrict_v(shape_, c, part.v.low, part.v.high);
             grow(k == 0 ? bounds.a : bounds.b, 1.0, arithmetic);
-            if (arrays_ == 2) continue;
-            double* errors = slots_.data() + (k + 2) * size;
-            const double of_errors = gamma_bound(8 * (shape_.p + shape_.q)) * Array(errors, size).maxCoeff();
-            restrict_u(shape_, errors, part.u.low, part.u.high);
-            restrict_v(shape_, errors, part.v.low, part.v.high);
-            for (int at = 0; at < size; ++at)
-                errors[at] = (std::abs(errors[at]) + arithmetic + of_errors) * bound_slack;
         }
+        for (int k = 0; arrays_ == 4 && k < 2; ++k)
+            restrict_errors(shape_, root_.data() + k * size, slots_.data() + k * size, part,
+                            slots_.data() + (k + 2) * size);
     }
     return with_local_errors(slots_.data(), bounds);
 }
@@ -158,13 +155,13 @@ void CommonZeroSearch::search(const ParameterBox& part, const SearchLimits& limi
     while (!nodes_.empty()) {
         if (visited == limits.boxes) {
             result.exhausted = true;
-            for (const Node& node : nodes_) result.open.push_back({node.box, false, 0.0});
+            for (const Node& node : nodes_) result.open.push_back({node.box, false, 0.0, node.box});
             break;
         }
         if (++visited % boxes_per_check == 0) progress.check();
         const std::size_t top = nodes_.size() - 1;
         const Outcome outcome = examine(nodes_[top], slot(top), result);
-        if (outcome == Outcome::zero) result.open.push_back({nodes_[top].box, true, 1.0});
+        if (outcome == Outcome::zero) result.open.push_back({nodes_[top].box, true, 1.0, nodes_[top].box});
         if (outcome != Outcome::split) {
             nodes_.pop_back();
             continue;
@@ -180,8 +177,8 @@ void CommonZeroSearch::search(const ParameterBox& part, const SearchLimits& limi
         }
         if (!possible) {
             const Bounds& bounds = nodes_[top].bounds;
-            result.open.push_back(
-                {box, false, std::max(bounds.a.input / magnitude_[0], bounds.b.input / magnitude_[1])});
+            const double doubt = std::max(bounds.a.input / magnitude_[0], bounds.b.input / magnitude_[1]);
+            result.open.push_back({box, false, doubt, box});
             nodes_.pop_back();
             continue;
         }
@@ -195,21 +192,23 @@ void CommonZeroSearch::search(const ParameterBox& part, const SearchLimits& limi
             first.box.u.high = second.box.u.low = box.u.middle();
         else
             first.box.v.high = second.box.v.low = box.v.middle();
-        for (int k = 0; k < arrays_; ++k)
+        for (int k = 0; arrays_ == 4 && k < 2; ++k)
+            halve_errors(shape_, along_u, slot(top) + k * size, slot(top) + (k + 2) * size,
+                         slot(top + 1) + (k + 2) * size);
+        for (int k = 0; k < 2; ++k)
             (along_u ? halve_u : halve_v)(shape_, slot(top) + k * size, slot(top + 1) + k * size);
-        if (arrays_ == 4) {
-            for (double* half : {slot(top), slot(top + 1)})
-                for (int k = 0; k < 2; ++k) {
-                    double* errors = half + (k + 2) * size;
-                    const double arithmetic = gamma_bound(degree) * magnitude_[k];
-                    for (int at = 0; at < size; ++at) errors[at] = (errors[at] + arithmetic) * bound_slack;
-                }
-            second.bounds = with_local_errors(slot(top), second.bounds);
-            first.bounds = with_local_errors(slot(top + 1), first.bounds);
-        }
+        second.bounds = with_local_errors(slot(top), second.bounds);
+        first.bounds = with_local_errors(slot(top + 1), first.bounds);
         nodes_.push_back(first);
     }
     result.boxes += visited;
+}
+
+bool CommonZeroSearch::decide(const ParameterBox& part, CommonZeros& result) {
+    const Node node{part, load(part)};
+    ++result.boxes;
+    const Outcome outcome = examine(node, slots_.data(), result);
+    return outcome == Outcome::empty || outcome == Outcome::isolated;
 }
 
 CommonZeroSearch::Outcome CommonZeroSearch::examine(const Node& node, const double* coefficients, CommonZeros& result) {

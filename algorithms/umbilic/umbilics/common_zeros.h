@@ -34,6 +34,7 @@ struct OpenBox {
     bool zero = false;  ///< both polynomials are zero on it within the input's rounding
     /// Greater share that the bound from the input's rounding has in the size of the two polynomials on it.
     double doubt = 0.0;
+    ParameterBox origin;  ///< the box of the first search that it was refined from, or itself
 };
 
 struct CommonZeros {
@@ -73,6 +74,10 @@ public:
 
     /// Searches `part` of [0, 1]^2 and appends what it finds. Throws Cancelled.
     void search(const ParameterBox& part, const SearchLimits& limits, const Progress& progress, CommonZeros& result);
+
+    /// Looks at `part` of [0, 1]^2 without splitting it: true if it was proved to hold no zero or one, which is then
+    /// appended.
+    bool decide(const ParameterBox& part, CommonZeros& result);
 
     /// Appends a zero unless `result` holds the same one already.
     static void add_zero(const IsolatedZero& zero, CommonZeros& result);

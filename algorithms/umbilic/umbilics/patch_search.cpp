@@ -2,6 +2,7 @@
 #include <umbilic/umbilics/patch_search.h>
 
 #include <algorithm>
+#include <map>
 
 #include <umbilic/bernstein/box_clusters.h>
 #include <umbilic/umbilics/winding.h>
@@ -29,6 +30,31 @@ constexpr double edge_share = 1.0 / 64;
 constexpr double doubtful = 1e-3;
 /// It is searched again with bounds for single coefficients if those are smaller by this factor.
 constexpr double worthwhile = 0.25;
+/// What is still open then is proved, if it can be, on boxes around it that are that many times larger each time and
+/// have sides of at most this share of the patch: the bound weighs less on them.
+constexpr double proof_growth = 4.0;
+constexpr double largest_proof = 1.0 / 8;
+/// Heaps of open boxes this is tried for.
+constexpr std::size_t most_proofs = 64;
+constexpr ParameterBox whole_patch{{0.0, 1.0}, {0.0, 1.0}};
+
+/// Open boxes that touch, joined.
+std::vector<std::vector<OpenBox>> heaps_of(const std::vector<OpenBox>& boxes) {
+    std::vector<Interval> sides;
+    for (const OpenBox& open : boxes) {
+        sides.emplace_back(open.box.u.low, open.box.u.high);
+        sides.emplace_back(open.box.v.low, open.box.v.high);
+    }
+    const BoxClusters heaps = cluster_boxes(sides, 2, 0.0);
+    std::vector<std::vector<OpenBox>> result(heaps.count);
+    for (std::size_t k = 0; k < boxes.size(); ++k) result[heaps.cluster[k]].push_back(boxes[k]);
+    return result;
+}
+
+ParameterInterval grown(const ParameterInterval& part, double factor, const ParameterInterval& whole) {
+    const double more = 0.5 * (factor - 1.0) * part.length();
+    return {whole.clamp(part.low - more), whole.clamp(part.high + more)};
+}
 
 }  // namespace
 
@@ -111,11 +137,11 @@ PatchUmbilics PatchSearch::search(const NurbsSurface& surface, const BezierPatch
                 CommonZeroSearch::add_zero(zero, result.zeros);
             else
                 // A zero of a surface that rounds to this one; its distance from this one's is not bounded.
-                result.zeros.open.push_back({zero.box, false, 0.0});
+                result.zeros.open.push_back({zero.box, false, 0.0, zero.box});
         }
         std::vector<OpenBox>& open = result.zeros.open;
         open.insert(open.end(), near_edges.open.begin(), near_edges.open.end());
-        for (const ParameterBox& line : umbilic_edges) open.push_back({line, false});
+        for (const ParameterBox& line : umbilic_edges) open.push_back({line, false, 0.0, line});
         result.zeros.boxes += near_edges.boxes;
         result.zeros.exhausted = result.zeros.exhausted || near_edges.exhausted;
     }
@@ -124,17 +150,10 @@ PatchUmbilics PatchSearch::search(const NurbsSurface& surface, const BezierPatch
 
 void PatchSearch::refine(const PatchTask& task, const Progress& progress, CommonZeros& zeros) {
     if (zeros.open.empty() || zeros.exhausted) return;
-    std::vector<Interval> sides;
-    for (const OpenBox& open : zeros.open) {
-        sides.emplace_back(open.box.u.low, open.box.u.high);
-        sides.emplace_back(open.box.v.low, open.box.v.high);
-    }
-    const BoxClusters heaps = cluster_boxes(sides, 2, 0.0);
-    std::vector<std::vector<OpenBox>> members(heaps.count);
-    for (std::size_t k = 0; k < zeros.open.size(); ++k) members[heaps.cluster[k]].push_back(zeros.open[k]);
+    const std::vector<std::vector<OpenBox>> heaps = heaps_of(zeros.open);
     zeros.open.clear();
     long left = refinement_budget;
-    for (const std::vector<OpenBox>& heap : members) {
+    for (const std::vector<OpenBox>& heap : heaps) {
         const bool refinable = std::all_of(heap.begin(), heap.end(), [&](const OpenBox& open) {
             return !open.zero && open.box.u.length() <= longest_refined * task.limits.u_size &&
                    open.box.v.length() <= longest_refined * task.limits.v_size;
@@ -147,12 +166,14 @@ void PatchSearch::refine(const PatchTask& task, const Progress& progress, Common
         finer.v_size *= refinement;
         const long budget =
             std::clamp(heap_budget / static_cast<long>(heap.size()), least_heap_budget, most_heap_budget);
+        std::size_t searched = 0;
         for (std::size_t k = 0; k < heap.size() && !refined.exhausted; ++k) {
             finer.boxes = std::min(budget, left) - refined.boxes;
             if (finer.boxes <= 0)
                 refined.exhausted = true;
             else
                 zeros_.search(heap[k].box, finer, progress, refined);
+            for (; searched < refined.open.size(); ++searched) refined.open[searched].origin = heap[k].origin;
         }
         zeros.boxes += refined.boxes;
         left -= refined.boxes;
@@ -176,24 +197,57 @@ void PatchSearch::redo_doubtful(const NurbsSurface& surface, const BezierPatch& 
         return open.doubt > doubtful && !(open.zero && whole);
     };
     if (zeros.exhausted || std::none_of(zeros.open.begin(), zeros.open.end(), in_doubt)) return;
-    const std::vector<OpenBox> before = std::move(zeros.open);
-    zeros.open.clear();
-    std::vector<double> errors;
-    for (const OpenBox& open : before) errors.push_back(in_doubt(open) ? zeros_.largest_error(open.box) : 0.0);
+    // The bound weighs least on large boxes: those of the first search are searched again, as a whole.
+    const auto key = [](const ParameterBox& box) {
+        return std::array<double, 4>{box.u.low, box.v.low, box.u.high, box.v.high};
+    };
+    struct Doubtful {
+        ParameterBox box;
+        double error = 0.0;
+        bool searched = false;
+    };
+    std::map<std::array<double, 4>, Doubtful> doubts;
+    for (const OpenBox& open : zeros.open)
+        if (in_doubt(open) && !doubts.contains(key(open.origin)))
+            doubts[key(open.origin)] = {open.origin, zeros_.largest_error(open.origin)};
     equations_.form_fundamental_with_errors(surface, patch, input);
     take_equations(surface, patch, divided);
     CommonZeros again;
-    for (std::size_t k = 0; k < before.size(); ++k) {
-        if (!in_doubt(before[k]) || again.exhausted || !(zeros_.largest_error(before[k].box) < worthwhile * errors[k]))
-            zeros.open.push_back(before[k]);
-        else
-            zeros_.search(before[k].box, task.limits, progress, again);
+    for (auto& [place, doubt] : doubts) {
+        if (again.exhausted || !(zeros_.largest_error(doubt.box) < worthwhile * doubt.error)) continue;
+        zeros_.search(doubt.box, task.limits, progress, again);
+        doubt.searched = true;
     }
+    std::erase_if(zeros.open, [&](const OpenBox& open) {
+        const auto doubt = doubts.find(key(open.origin));
+        return doubt != doubts.end() && doubt->second.searched;
+    });
     refine(task, progress, again);
+    if (divided == undivided && !again.exhausted) prove_around(again);
     for (const IsolatedZero& zero : again.isolated) CommonZeroSearch::add_zero(zero, zeros);
     zeros.open.insert(zeros.open.end(), again.open.begin(), again.open.end());
     zeros.boxes += again.boxes;
     zeros.exhausted = zeros.exhausted || again.exhausted;
+}
+
+void PatchSearch::prove_around(CommonZeros& zeros) {
+    const std::vector<std::vector<OpenBox>> heaps = heaps_of(zeros.open);
+    if (heaps.size() > most_proofs) return;
+    zeros.open.clear();
+    for (const std::vector<OpenBox>& heap : heaps) {
+        ParameterBox hull = heap.front().box;
+        for (const OpenBox& open : heap) {
+            hull.u = {std::min(hull.u.low, open.box.u.low), std::max(hull.u.high, open.box.u.high)};
+            hull.v = {std::min(hull.v.low, open.box.v.low), std::max(hull.v.high, open.box.v.high)};
+        }
+        bool decided = false;
+        for (double factor = proof_growth; !decided; factor *= proof_growth) {
+            const ParameterBox around{grown(hull.u, factor, whole_patch.u), grown(hull.v, factor, whole_patch.v)};
+            if (std::max(around.u.length(), around.v.length()) > largest_proof) break;
+            decided = zeros_.decide(around, zeros);
+        }
+        if (!decided) zeros.open.insert(zeros.open.end(), heap.begin(), heap.end());
+    }
 }
 
 }  // namespace umbilic

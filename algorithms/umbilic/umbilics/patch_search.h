@@ -43,6 +43,7 @@ private:
     void redo_doubtful(const NurbsSurface& surface, const BezierPatch& patch, const InputRounding& input,
                        const PatchTask& task, const std::array<bool, 4>& divided, const Progress& progress,
                        CommonZeros& zeros);
+    void prove_around(CommonZeros& zeros);
 
     UmbilicEquations equations_;
     CommonZeroSearch zeros_;
