@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include <boost/math/tools/roots.hpp>
 
@@ -119,6 +120,60 @@ TEST(UmbilicLines, CirclesOfAGraphOfDegreeSix) {
         EXPECT_EQ(found.undecided[0].index.value_or(0.0), 1.0);
     }
     EXPECT_LE(found.statistics.boxes, 100000);
+}
+
+/// z = 6 h y^2 + q y^3, q = (x - 1/8)^2 + y - y0, x in [-1, 1], y in [0, 1], all numbers exact in double precision.
+NurbsSurface bent_plate(double y0, double h) {
+    // Powers of u = (x + 1) / 2 and y; then Bernstein coefficients.
+    const double x0 = 1.0 / 8;
+    double power[3][5] = {};
+    power[0][2] = 6 * h;
+    power[0][3] = (1 + x0) * (1 + x0) - y0;
+    power[1][3] = -4 * (1 + x0);
+    power[2][3] = 4;
+    power[0][4] = 1;
+    constexpr double u_share[3][3] = {{1, 0, 0}, {1, 0.5, 0}, {1, 1, 1}};
+    std::vector<Vector3> poles;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 5; ++j) {
+            const double y_share[5] = {1.0, j / 4.0, j * (j - 1) / 12.0, j * (j - 1) * (j - 2) / 24.0,
+                                       j == 4 ? 1.0 : 0.0};
+            double z = 0.0;
+            for (int a = 0; a < 3; ++a)
+                for (int b = 0; b < 5; ++b)
+                    z += u_share[i][a] * (b == 2 ? power[a][b] / 6 * (j * (j - 1) / 2) : power[a][b] * y_share[b]);
+            poles.emplace_back(i - 1.0, j / 4.0, z);
+        }
+    return NurbsSurface(KnotVector::bezier(2), KnotVector::bezier(4), std::move(poles));
+}
+
+TEST(UmbilicLines, AnUmbilicBesideAnEdgeThatIsUmbilicWithinRounding) {
+    // Flat points along y = 0 if h = 0. The equations are divided by y near that edge; for h within their rounding what
+    // that leaves out moves the umbilic by up to 4e-9.
+    for (const double y0 : {0x1p-6, 0x1p-8, 0x1p-10})
+        for (const double h : {0.0, 0x1p-39, -0x1p-39, 0x1p-44, 0x1p-30}) {
+            SCOPED_TRACE(std::to_string(y0) + ' ' + std::to_string(h));
+            const NurbsSurface surface = bent_plate(y0, h);
+            const FaceUmbilics found = find_umbilics(surface);
+            // On x = 1/8 the plane x = const is one of symmetry up to second order: A = 0, and B = z_yy - (1 + z_y^2)
+            // z_xx.
+            using Real = long double;
+            const auto b = [&](Real y) {
+                const Real z_y = 12 * h * y + 4 * y * y * y - 3 * y0 * y * y;
+                const Real z_yy = 12 * h + 12 * y * y - 6 * y0 * y;
+                return z_yy - (1 + z_y * z_y) * 2 * y * y * y;
+            };
+            std::uintmax_t most = 200;
+            const auto root = boost::math::tools::toms748_solve(b, Real(0.4 * y0), Real(0.7 * y0),
+                                                                boost::math::tools::eps_tolerance<Real>(60), most);
+            const auto near = std::find_if(found.umbilics.begin(), found.umbilics.end(),
+                                           [&](const Umbilic& umbilic) { return umbilic.at.v < y0; });
+            ASSERT_NE(near, found.umbilics.end());
+            EXPECT_EQ(near->index, 0.5);
+            EXPECT_LE(near->radius, 1e-14);
+            EXPECT_LE(std::abs(near->at.u - 0.5625), near->radius);
+            EXPECT_LE(std::abs(near->at.v - root.first), near->radius);
+        }
 }
 
 TEST(UmbilicLines, ParallelsOfAVase) {

@@ -134,6 +134,23 @@ TEST(Poles, TriaxialEllipsoidHasFourLemonsAndNoUmbilicAtItsPoles) {
     }
 }
 
+TEST(Poles, UmbilicsOfAnEllipsoidBesideItsPole) {
+    // Nearly a spheroid, a little longer in x: the pole is no umbilic, but there are two near it in the plane y = 0.
+    const double b = 1.0, c = 0.7;
+    for (const double longer : {1e-3, 1e-4, 5e-5, 2e-5, 1e-5}) {
+        SCOPED_TRACE(longer);
+        const double a = b + longer, base = a * a - c * c;
+        const Vector3 expected(a * std::sqrt((a * a - b * b) / base), 0.0, c * std::sqrt((b * b - c * c) / base));
+        const FaceUmbilics found = find_umbilics(support::ellipsoid_octant(a, b, c));
+        EXPECT_TRUE(found.undecided.empty());
+        ASSERT_EQ(found.umbilics.size(), 1u);
+        EXPECT_EQ(found.umbilics[0].index, 0.5);
+        EXPECT_LE(found.umbilics[0].radius, 1e-12);
+        // The weights are rounded, too, and the nearer to a spheroid the more that moves the umbilic.
+        EXPECT_LE((found.umbilics[0].point - expected).norm(), 1e-17 / longer + 1e-13);
+    }
+}
+
 TEST(Poles, OctantHasItsPoleAtACorner) {
     const FaceUmbilics found = find_umbilics(support::ellipsoid_octant(2, 2, 1));
     expect_certified(found, 0.0);

@@ -204,11 +204,17 @@ void CommonZeroSearch::search(const ParameterBox& part, const SearchLimits& limi
     result.boxes += visited;
 }
 
-bool CommonZeroSearch::decide(const ParameterBox& part, CommonZeros& result) {
+std::optional<int> CommonZeroSearch::count(const ParameterBox& part, CommonZeros& result) {
     const Node node{part, load(part)};
     ++result.boxes;
-    const Outcome outcome = examine(node, slots_.data(), result);
-    return outcome == Outcome::empty || outcome == Outcome::isolated;
+    switch (examine(node, slots_.data(), result)) {
+        case Outcome::empty:
+            return 0;
+        case Outcome::isolated:
+            return 1;
+        default:
+            return std::nullopt;
+    }
 }
 
 CommonZeroSearch::Outcome CommonZeroSearch::examine(const Node& node, const double* coefficients, CommonZeros& result) {

@@ -75,9 +75,8 @@ public:
     /// Searches `part` of [0, 1]^2 and appends what it finds. Throws Cancelled.
     void search(const ParameterBox& part, const SearchLimits& limits, const Progress& progress, CommonZeros& result);
 
-    /// Looks at `part` of [0, 1]^2 without splitting it: true if it was proved to hold no zero or one, which is then
-    /// appended.
-    bool decide(const ParameterBox& part, CommonZeros& result);
+    /// Number of zeros in `part` of [0, 1]^2, 0 or 1, if it can be proved without splitting; the one is appended.
+    std::optional<int> count(const ParameterBox& part, CommonZeros& result);
 
     /// Appends a zero unless `result` holds the same one already.
     static void add_zero(const IsolatedZero& zero, CommonZeros& result);

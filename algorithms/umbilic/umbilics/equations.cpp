@@ -16,6 +16,8 @@ namespace umbilic {
 
 namespace {
 
+constexpr std::array<PatchEdge, 4> all_edges = {PatchEdge::u_low, PatchEdge::u_high, PatchEdge::v_low,
+                                                PatchEdge::v_high};
 constexpr double ulp_of_one = std::numeric_limits<double>::epsilon();
 
 void sum(std::initializer_list<ProductTerm> terms, TensorPolynomial& result) {
@@ -366,19 +368,51 @@ bool UmbilicEquations::umbilic(PatchEdge edge) const {
 }
 
 void UmbilicEquations::divide_by_edges(const std::array<bool, 4>& edges) {
-    divided_exactly_ = true;
     for (const PatchEdge edge : {PatchEdge::u_low, PatchEdge::u_high, PatchEdge::v_low, PatchEdge::v_high}) {
         if (!edges[static_cast<int>(edge)]) continue;
         const bool across_u = edge == PatchEdge::u_low || edge == PatchEdge::u_high;
         for (TensorPolynomial* polynomial : {&a_, &b_})
             while ((across_u ? polynomial->u_degree : polynomial->v_degree) > 0 &&
                    polynomial->magnitude > polynomial->bound.input &&
-                   edge_magnitude(*polynomial, edge) <= polynomial->bound.input) {
-                divided_exactly_ = divided_exactly_ && edge_magnitude(*polynomial, edge) <= polynomial->bound.rounding;
+                   edge_magnitude(*polynomial, edge) <= polynomial->bound.input)
                 divide_by_edge(*polynomial, edge);
-            }
     }
     raise_to_common_degree(a_, b_);
+}
+
+void UmbilicEquations::divide_by_poles(const std::array<bool, 4>& edges) {
+    for (const PatchEdge edge : all_edges) {
+        if (!edges[static_cast<int>(edge)]) continue;
+        const PolePowers powers = pole_powers(edge);
+        for (int k = 0; k < powers.a; ++k) divide_by_edge(a_, edge);
+        for (int k = 0; k < powers.b; ++k) divide_by_edge(b_, edge);
+    }
+    raise_to_common_degree(a_, b_);
+}
+
+bool collapsed(const NurbsSurface& surface, const BezierPatch& patch, PatchEdge edge) {
+    const bool across_u = edge == PatchEdge::u_low || edge == PatchEdge::u_high;
+    const bool low = edge == PatchEdge::u_low || edge == PatchEdge::v_low;
+    const KnotVector& knots = across_u ? surface.u_knots() : surface.v_knots();
+    const ParameterInterval &side = across_u ? patch.domain.u : patch.domain.v, domain = knots.domain();
+    if (low ? side.low != domain.low : side.high != domain.high) return false;
+    const std::vector<double>& k = knots.knots();
+    if (low ? k.front() != domain.low : k.back() != domain.high) return false;
+    const int rows = surface.u_pole_count(), columns = surface.v_pole_count();
+    const auto pole = [&](int at) -> const Vector3& {
+        const int i = across_u ? (low ? 0 : rows - 1) : at, j = across_u ? at : (low ? 0 : columns - 1);
+        return surface.poles()[static_cast<std::size_t>(i) * columns + j];
+    };
+    for (int at = 1; at < (across_u ? columns : rows); ++at)
+        if (pole(at) != pole(0)) return false;
+    return true;
+}
+
+PolePowers pole_powers(PatchEdge edge) {
+    // With r = p + t c(s) + ... , t the distance: N is of order 1 in t; of E, F, G the one of r_s r_s is of order 2 and
+    // F of order 1; of l, m, n that of r_ss is of order 2, m of order 2 since N r_st = t (c' x c) c' + ..., that of
+    // r_tt of order 1.
+    return edge == PatchEdge::u_low || edge == PatchEdge::u_high ? PolePowers{2, 2} : PolePowers{3, 2};
 }
 
 }  // namespace umbilic

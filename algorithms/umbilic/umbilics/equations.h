@@ -72,11 +72,11 @@ public:
     /// Divides A and B by the powers of the distance from these edges that they contain, as far as they vanish there
     /// within the input's rounding, and raises both to one bidegree again. At a simple pole A contains the fourth
     /// power and B the third; both one more if the pole is umbilic, and still more if its cubic form vanishes.
-    /// Needs form_umbilic.
+    /// What is left are the equations of a surface that rounds to the given one. Needs form_umbilic.
     void divide_by_edges(const std::array<bool, 4>& edges);
-    /// Everything divide_by_edges() dropped was zero within the rounding of the arithmetic. If not, the divided
-    /// equations are those of a surface that rounds to the given one, and their zeros need not be its own.
-    bool divided_exactly() const { return divided_exactly_; }
+    /// Divides A and B by the powers pole_powers() of the distance from these edges, which must be collapsed() to one
+    /// point exactly: what is left are the equations of the given surface. Needs form_umbilic.
+    void divide_by_poles(const std::array<bool, 4>& edges);
 
 private:
     using Vector3Polynomial = std::array<TensorPolynomial, 3>;
@@ -100,7 +100,6 @@ private:
     int p_ = 0, q_ = 0;
     bool rational_ = false;
     std::array<bool, 4> singular_{};
-    bool divided_exactly_ = true;
     /// Bernstein coefficients of the homogeneous components x, y, z, w.
     std::array<std::vector<double>, 4> net_;
     std::array<double, 4> net_magnitude_{};
@@ -113,6 +112,16 @@ private:
     std::array<Vector4Polynomial, 4> part_;
     std::array<TensorPolynomial, 6> minor_, other_minor_;
 };
+
+/// True if the edge of the patch lies on a side of the surface's domain that is one point exactly: clamped there, and
+/// all control points of that side are equal.
+bool collapsed(const NurbsSurface& surface, const BezierPatch& patch, PatchEdge edge);
+
+/// Powers of the distance from a collapsed edge that A and B contain whatever the surface.
+struct PolePowers {
+    int a = 0, b = 0;
+};
+PolePowers pole_powers(PatchEdge edge);
 
 /// Values of A and B, scaled as in UmbilicEquations, at a point of the patch, which may lie a little outside [0, 1]^2:
 /// in arithmetic of 113 bits from the control points of `surface`, taken as exact. Far tighter than

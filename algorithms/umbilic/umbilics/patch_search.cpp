@@ -26,6 +26,9 @@ constexpr std::array<bool, 4> undivided{};
 /// used: they have a looser bound, but do not vanish on the edge. What they leave out where the edge is singular or
 /// umbilic only within the input's rounding grows with the inverse of the distance.
 constexpr double edge_share = 1.0 / 64;
+/// A zero of the divided equations is proved from those of the given surface on boxes down to this share of its
+/// distance from the edge.
+constexpr double least_edge_proof = 1.0 / 64;
 /// A box on which the bound has this share in the polynomials' sizes is open because of the bound.
 constexpr double doubtful = 1e-3;
 /// It is searched again with bounds for single coefficients if those are smaller by this factor.
@@ -131,14 +134,9 @@ PatchUmbilics PatchSearch::search(const NurbsSurface& surface, const BezierPatch
         for (const ParameterBox& strip : strips) zeros_.search(strip, task.limits, progress, near_edges);
         refine(task, progress, near_edges);
         redo_doubtful(surface, patch, input, task, divided, progress, near_edges);
-        for (const IsolatedZero& zero : near_edges.isolated) {
-            if (on_umbilic_edge(zero)) continue;
-            if (equations_.divided_exactly())
-                CommonZeroSearch::add_zero(zero, result.zeros);
-            else
-                // A zero of a surface that rounds to this one; its distance from this one's is not bounded.
-                result.zeros.open.push_back({zero.box, false, 0.0, zero.box});
-        }
+        std::erase_if(near_edges.isolated, on_umbilic_edge);
+        if (!near_edges.isolated.empty())
+            prove_near_edges(surface, patch, input, divided, near_edges.isolated, result.zeros);
         std::vector<OpenBox>& open = result.zeros.open;
         open.insert(open.end(), near_edges.open.begin(), near_edges.open.end());
         for (const ParameterBox& line : umbilic_edges) open.push_back({line, false, 0.0, line});
@@ -230,6 +228,54 @@ void PatchSearch::redo_doubtful(const NurbsSurface& surface, const BezierPatch& 
     zeros.exhausted = zeros.exhausted || again.exhausted;
 }
 
+void PatchSearch::prove_near_edges(const NurbsSurface& surface, const BezierPatch& patch, const InputRounding& input,
+                                   const std::array<bool, 4>& divided, const std::vector<IsolatedZero>& found,
+                                   CommonZeros& zeros) {
+    std::array<bool, 4> poles{};
+    for (int k = 0; k < 4; ++k) poles[k] = divided[k] && collapsed(surface, patch, static_cast<PatchEdge>(k));
+    // Values of A and B at a point, divided as the polynomials are.
+    const auto quotient = [poles](std::array<Interval, 2> value, const Vector2& at) {
+        const Interval u(at.x()), v(at.y());
+        const Interval distance[4] = {u, Interval(1.0) - u, v, Interval(1.0) - v};
+        for (int k = 0; k < 4; ++k) {
+            if (!poles[k]) continue;
+            const PolePowers powers = pole_powers(static_cast<PatchEdge>(k));
+            for (int i = 0; i < powers.a; ++i) value[0] = value[0] / distance[k];
+            for (int i = 0; i < powers.b; ++i) value[1] = value[1] / distance[k];
+        }
+        return value;
+    };
+    equations_.form_fundamental_with_errors(surface, patch, input);
+    equations_.form_umbilic();
+    equations_.divide_by_poles(poles);
+    zeros_.set_polynomials(
+        equations_.a(), equations_.b(),
+        [this, quotient](const Vector2& at) { return quotient(equations_.enclose(at), at); },
+        [&surface, &patch, quotient](const Vector2& at) {
+            return quotient(enclose_precisely(surface, patch, at), at);
+        });
+    for (const IsolatedZero& zero : found) {
+        // (A, B) still changes by powers of the distance from the edges: across them the boxes are small beside it.
+        const double gaps[4] = {zero.at.x(), 1.0 - zero.at.x(), zero.at.y(), 1.0 - zero.at.y()};
+        const bool across[2] = {divided[0] || divided[1], divided[2] || divided[3]};
+        double gap = 1.0;
+        for (int k = 0; k < 4; ++k)
+            if (divided[k]) gap = std::min(gap, gaps[k]);
+        std::optional<int> count;
+        for (double share = 0.5; gap > 0.0 && !count && share >= least_edge_proof; share /= 2)
+            for (double length = across[0] && across[1] ? share * gap : 0.25; !count && length >= share * gap;
+                 length /= 4) {
+                const auto around = [&](int k) {
+                    const double size = across[k] ? share * gap : length;
+                    return ParameterInterval{whole_patch.u.clamp(zero.at[k] - size),
+                                             whole_patch.u.clamp(zero.at[k] + size)};
+                };
+                count = zeros_.count({around(0), around(1)}, zeros);
+            }
+        if (count != 1) zeros.open.push_back({zero.box, false, 0.0, zero.box});
+    }
+}
+
 void PatchSearch::prove_around(CommonZeros& zeros) {
     const std::vector<std::vector<OpenBox>> heaps = heaps_of(zeros.open);
     if (heaps.size() > most_proofs) return;
@@ -244,7 +290,7 @@ void PatchSearch::prove_around(CommonZeros& zeros) {
         for (double factor = proof_growth; !decided; factor *= proof_growth) {
             const ParameterBox around{grown(hull.u, factor, whole_patch.u), grown(hull.v, factor, whole_patch.v)};
             if (std::max(around.u.length(), around.v.length()) > largest_proof) break;
-            decided = zeros_.decide(around, zeros);
+            decided = zeros_.count(around, zeros).has_value();
         }
         if (!decided) zeros.open.insert(zeros.open.end(), heap.begin(), heap.end());
     }

@@ -43,6 +43,12 @@ private:
     void redo_doubtful(const NurbsSurface& surface, const BezierPatch& patch, const InputRounding& input,
                        const PatchTask& task, const std::array<bool, 4>& divided, const Progress& progress,
                        CommonZeros& zeros);
+    /// Zeros of equations divided by edges, proved from equations of the given surface: what that division leaves out
+    /// vanishes within rounding only, and moves a zero by that over its distance from the edge. Boxes of those that
+    /// cannot be proved are left open.
+    void prove_near_edges(const NurbsSurface& surface, const BezierPatch& patch, const InputRounding& input,
+                          const std::array<bool, 4>& divided, const std::vector<IsolatedZero>& found,
+                          CommonZeros& zeros);
     void prove_around(CommonZeros& zeros);
 
     UmbilicEquations equations_;
