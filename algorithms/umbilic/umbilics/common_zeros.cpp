@@ -28,6 +28,8 @@ constexpr double largest_contraction = 0.75;
 constexpr double reach = 0.4;
 constexpr double margin = 1e-3;
 constexpr int newton_steps = 12;
+/// Directions beside the mean one in which exclusion is tried before a box is split.
+constexpr int hull_steps = 2;
 /// Newton steps in precise arithmetic: from a radius of 10^-6 of the domain two reach rounding.
 constexpr int precise_steps = 4;
 /// A direction is not split beyond the limit for the other if its relative variation is below this share of it.
@@ -231,15 +233,9 @@ CommonZeroSearch::Outcome CommonZeroSearch::examine(const Node& node, const doub
     if (vanishes[0] && vanishes[1]) return Outcome::zero;
     if (excluded) return Outcome::empty;
 
-    const Array a(polynomial[0], size), b(polynomial[1], size);
-    const auto combination_excludes = [&](double x, double y) {
-        const double error = (std::abs(x) * (bound[0].input + 3 * unit_roundoff * magnitude_[0]) +
-                              std::abs(y) * (bound[1].input + 3 * unit_roundoff * magnitude_[1])) *
-                             bound_slack;
-        return (x * a + y * b).minCoeff() > error;
-    };
     // Towards the mean of all coefficient pairs.
-    if (combination_excludes(a.mean(), b.mean())) return Outcome::empty;
+    const Vector2 mean(Array(polynomial[0], size).mean(), Array(polynomial[1], size).mean());
+    if (combination_excludes(node, coefficients, mean)) return Outcome::empty;
 
     const int p = shape_.p, length = shape_.row_length();
     Matrix2 mean_derivative;
@@ -260,6 +256,8 @@ CommonZeroSearch::Outcome CommonZeroSearch::examine(const Node& node, const doub
         }
     }
 
+    if (!vanishes[0] && !vanishes[1] && excluded_beside(node, coefficients, mean)) return Outcome::empty;
+
     u_variation_ = v_variation_ = 0.0;
     for (int k = 0; k < 2; ++k) {
         if (vanishes[k]) continue;
@@ -271,6 +269,36 @@ CommonZeroSearch::Outcome CommonZeroSearch::examine(const Node& node, const doub
         v_variation_ = std::max(v_variation_, v / magnitude_[k]);
     }
     return Outcome::split;
+}
+
+bool CommonZeroSearch::combination_excludes(const Node& node, const double* coefficients,
+                                            const Vector2& weights) const {
+    const int size = shape_.size();
+    const double error = (std::abs(weights.x()) * (node.bounds.a.input + 3 * unit_roundoff * magnitude_[0]) +
+                          std::abs(weights.y()) * (node.bounds.b.input + 3 * unit_roundoff * magnitude_[1])) *
+                         bound_slack;
+    return (weights.x() * Array(coefficients, size) + weights.y() * Array(coefficients + size, size)).minCoeff() >
+           error;
+}
+
+bool CommonZeroSearch::excluded_beside(const Node& node, const double* coefficients, const Vector2& mean) {
+    const int size = shape_.size();
+    const Array a(coefficients, size), b(coefficients + size, size);
+    // Pairs brought to one size.
+    const Vector2 scale(1.0 / magnitude_[0], 1.0 / magnitude_[1]);
+    Vector2 nearest = mean.cwiseProduct(scale);
+    Eigen::Map<Eigen::ArrayXd> heights(combined_.data(), size);
+    for (int step = 0; step < hull_steps; ++step) {
+        const Vector2 weights = nearest.cwiseProduct(scale);
+        heights = weights.x() * a + weights.y() * b;
+        const double least = heights.minCoeff();
+        if (step == 0 && least < -nearest.squaredNorm()) return false;
+        const auto lowest = std::find(heights.data(), heights.data() + size - 1, least) - heights.data();
+        const Vector2 towards = Vector2(a[lowest], b[lowest]).cwiseProduct(scale) - nearest;
+        nearest += std::clamp(-nearest.dot(towards) / towards.squaredNorm(), 0.0, 1.0) * towards;
+        if (combination_excludes(node, coefficients, nearest.cwiseProduct(scale))) return true;
+    }
+    return false;
 }
 
 std::optional<double> CommonZeroSearch::contraction(const double* coefficients, const Bounds& bounds,

@@ -105,6 +105,12 @@ private:
     Outcome examine(const Node& node, const double* coefficients, CommonZeros& result);
     Outcome isolate(const Node& node, const double* coefficients, const Matrix2& preconditioner, double contraction,
                     CommonZeros& result);
+    /// True if the combination of a and b with these weights has positive coefficients only.
+    bool combination_excludes(const Node& node, const double* coefficients, const Vector2& weights) const;
+    /// The same for weights turned from the mean pair of coefficients towards the point of the pairs' convex hull that
+    /// is nearest to 0 (Gilbert's algorithm). Gives up at once if a pair lies farther behind 0 than their mean before
+    /// it.
+    bool excluded_beside(const Node& node, const double* coefficients, const Vector2& mean);
     bool newton(const double* coefficients, Vector2& at);
     void evaluate(const double* coefficients, const Vector2& at, Vector2& value, Matrix2* jacobian);
     Residual residual(const double* coefficients, const Bounds& bounds, const Matrix2& preconditioner,
