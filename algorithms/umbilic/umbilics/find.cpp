@@ -6,6 +6,8 @@
 #include <atomic>
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -83,6 +85,22 @@ std::vector<PatchUmbilics> search_patches(const NurbsSurface& surface, const Bez
     return result;
 }
 
+/// Of every isolated zero, patch after patch.
+std::vector<std::optional<Umbilic>> characterise_all(const NurbsSurface& surface, const BezierPatches& patches,
+                                                     const InputRounding& input,
+                                                     const std::vector<PatchUmbilics>& found,
+                                                     const InputAccuracy& accuracy) {
+    std::vector<std::pair<std::size_t, std::size_t>> places;
+    for (std::size_t k = 0; k < found.size(); ++k)
+        for (std::size_t i = 0; i < found[k].zeros.isolated.size(); ++i) places.emplace_back(k, i);
+    std::vector<std::optional<Umbilic>> result(places.size());
+    tbb::parallel_for(std::size_t(0), places.size(), [&](std::size_t at) {
+        const auto [k, i] = places[at];
+        result[at] = characterise(surface, patches.patches[k], found[k].zeros.isolated[i], input, accuracy);
+    });
+    return result;
+}
+
 void check(const UmbilicOptions& options) {
     if (!(options.resolution > 0.0 && options.resolution < 1.0))
         throw InvalidInput("umbilic search: the resolution must lie between 0 and 1");
@@ -103,6 +121,9 @@ FaceUmbilics search_range(const NurbsSurface& surface, const PatchRange& range, 
     result.searched = {{u_breaks[range.u_first], u_breaks[range.u_last]},
                        {v_breaks[range.v_first], v_breaks[range.v_last]}};
     result.statistics.patches = (range.u_last - range.u_first) * (range.v_last - range.v_first);
+    std::vector<std::optional<Umbilic>> characterised =
+        characterise_all(surface, patches, input, found, {options.accuracy, options.generic_margin});
+    std::size_t at = 0;
     std::vector<Candidate> candidates;
     std::vector<OpenPart> open;
     for (std::size_t k = 0; k < found.size(); ++k) {
@@ -120,8 +141,8 @@ FaceUmbilics search_range(const NurbsSurface& surface, const PatchRange& range, 
             return ParameterBox{place(domain.u, box.u), place(domain.v, box.v)};
         };
         for (const IsolatedZero& zero : zeros.isolated) {
-            if (std::optional<Umbilic> umbilic =
-                    characterise(surface, patch, zero, input, {options.accuracy, options.generic_margin}))
+            std::optional<Umbilic>& umbilic = characterised[at++];
+            if (umbilic)
                 candidates.push_back({std::move(*umbilic), zero, k});
             else
                 open.push_back({in_surface(zero.box), false});
