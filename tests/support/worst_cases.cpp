@@ -32,6 +32,17 @@ NurbsSurface developable() {
     return NurbsSurface(KnotVector::bezier(3), KnotVector::bezier(1), std::move(poles));
 }
 
+/// Flat points along an oblique line through 35 of 17 x 17 patches: z is cubic in the distance from it, but for a tilt.
+NurbsSurface oblique_line() {
+    const NurbsSurface patch = graph_patch(3, 3, [](double x, double y) {
+        const double distance = 0.8 * x + 0.6 * y - 0.15;
+        return distance * distance * distance + 0.1 * x;
+    });
+    std::vector<double> knots;
+    for (int k = 1; k < 17; ++k) knots.push_back(k / 17.0);
+    return with_knots(patch, knots, knots).surface;
+}
+
 /// All around, with a cubic meridian of eight control points that bulges and narrows.
 NurbsSurface vase() {
     const double w = std::numbers::sqrt2 / 2, radius[8] = {0.3, 0.5, 0.9, 1.0, 0.6, 0.35, 0.3, 0.55};
@@ -85,6 +96,7 @@ std::vector<WorstCase> worst_cases() {
         {"developable", developable(), Expected::line, 20000},
         {"inflection_line_20x20", graph([](double x, double, double) { return std::pow(x - 0.5754, 3) + 0.1 * x; }),
          Expected::line, 40000},
+        {"oblique_line_20x20", oblique_line(), Expected::line, 40000},
         {"planar_part_20x20", graph([](double x, double y, double rough) {
              return std::max(std::abs(x - 0.5), std::abs(y - 0.5)) < 0.25 ? 0.0 : rough;
          }),

@@ -21,6 +21,12 @@ constexpr double longest_refined = 8.0;
 constexpr long heap_budget = 48000, least_heap_budget = 1500, most_heap_budget = 6000;
 /// Boxes all refinements of one patch may use.
 constexpr long refinement_budget = 30000;
+/// A heap of more boxes is a line if some of them, searched this much finer, all leave boxes open. Around points most
+/// are excluded.
+constexpr std::size_t short_heap = 6;
+constexpr double line_refinement = 1.0 / 8;
+constexpr std::size_t line_samples = 6;
+constexpr long line_budget = 400;
 constexpr std::array<bool, 4> undivided{};
 /// Next to a singular or umbilic edge, within this part of the patch, the equations divided by the edge's factors are
 /// used: they have a looser bound, but do not vanish on the edge. What they leave out where the edge is singular or
@@ -158,7 +164,7 @@ void PatchSearch::refine(const PatchTask& task, const Progress& progress, Common
         });
         CommonZeros refined;
         refined.isolated = zeros.isolated;
-        refined.exhausted = !refinable || heap.size() > most_refined;
+        refined.exhausted = !refinable || heap.size() > most_refined || is_line(heap, task, progress, zeros);
         SearchLimits finer = task.limits;
         finer.u_size *= refinement;
         finer.v_size *= refinement;
@@ -185,6 +191,22 @@ void PatchSearch::refine(const PatchTask& task, const Progress& progress, Common
         zeros.open.insert(zeros.open.end(), refined.open.begin(), refined.open.end());
         zeros.isolated = std::move(refined.isolated);
     }
+}
+
+bool PatchSearch::is_line(const std::vector<OpenBox>& heap, const PatchTask& task, const Progress& progress,
+                          CommonZeros& zeros) {
+    if (heap.size() <= short_heap) return false;
+    SearchLimits finer = task.limits;
+    finer.u_size *= line_refinement;
+    finer.v_size *= line_refinement;
+    finer.boxes = line_budget;
+    for (std::size_t k = 0; k < line_samples; ++k) {
+        CommonZeros sample;
+        zeros_.search(heap[k * (heap.size() - 1) / (line_samples - 1)].box, finer, progress, sample);
+        zeros.boxes += sample.boxes;
+        if (sample.open.empty()) return false;
+    }
+    return true;
 }
 
 void PatchSearch::redo_doubtful(const NurbsSurface& surface, const BezierPatch& patch, const InputRounding& input,

@@ -40,6 +40,7 @@ public:
 private:
     void take_equations(const NurbsSurface& surface, const BezierPatch& patch, const std::array<bool, 4>& divided);
     void refine(const PatchTask& task, const Progress& progress, CommonZeros& zeros);
+    bool is_line(const std::vector<OpenBox>& heap, const PatchTask& task, const Progress& progress, CommonZeros& zeros);
     void redo_doubtful(const NurbsSurface& surface, const BezierPatch& patch, const InputRounding& input,
                        const PatchTask& task, const std::array<bool, 4>& divided, const Progress& progress,
                        CommonZeros& zeros);
