@@ -96,7 +96,7 @@ std::vector<WorstCase> worst_cases() {
         {"developable", developable(), Expected::line, 20000},
         {"inflection_line_20x20", graph([](double x, double, double) { return std::pow(x - 0.5754, 3) + 0.1 * x; }),
          Expected::line, 40000},
-        {"oblique_line_20x20", oblique_line(), Expected::line, 40000},
+        {"oblique_line_20x20", oblique_line(), Expected::line, 30000},
         {"planar_part_20x20", graph([](double x, double y, double rough) {
              return std::max(std::abs(x - 0.5), std::abs(y - 0.5)) < 0.25 ? 0.0 : rough;
          }),

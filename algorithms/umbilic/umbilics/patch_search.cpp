@@ -18,7 +18,7 @@ constexpr double refinement = 1e-4;
 constexpr std::size_t most_refined = 256;
 /// A box longer than this many smallest ones was not halved because nothing varies along it: part of a line.
 constexpr double longest_refined = 8.0;
-constexpr long heap_budget = 48000, least_heap_budget = 1500, most_heap_budget = 6000;
+constexpr long heap_budget = 48000, least_heap_budget = 1500, most_heap_budget = 3000;
 /// Boxes all refinements of one patch may use.
 constexpr long refinement_budget = 30000;
 /// A heap of more boxes is a line if some of them, searched this much finer, all leave boxes open. Around points most
