@@ -56,6 +56,8 @@ def certificate_words(face: Dict[str, Any]) -> str:
         return "not complete: " + certificate["why"]
     if face["undecided"]:
         return "complete but for undecided places"
+    if face["lines"] or face["regions"]:
+        return "complete" if face["umbilics"] else "no other umbilic, proved"
     return "complete" if face["umbilics"] else "no umbilic, proved"
 
 
