@@ -178,6 +178,29 @@ std::vector<FaceGroup> plain_faces(const Model& model, const std::vector<FaceUmb
     return groups;
 }
 
+std::string shell_words(const ShellCertificate& shell) {
+    std::string text = shell.closed ? "closed" : "open";
+    if (const std::optional<int> genus = shell.genus()) text += ", genus " + std::to_string(*genus);
+    if (!shell.complete) return text + "; completeness " + shell.why;
+    const std::string sum = "the indices of its umbilics sum to " + readable(shell.index_sum, 3);
+    if (!*shell.complete)
+        return text + "; not complete: " + sum + " instead of " + readable(*shell.euler_characteristic, 3);
+    return text + "; complete: " + sum + ", Euler's characteristic";
+}
+
+std::vector<ShellGroup> shell_groups(const std::vector<ShellCertificate>& shells) {
+    std::vector<ShellGroup> groups;
+    for (const ShellCertificate& shell : shells) {
+        const std::string words = shell_words(shell);
+        auto group = std::ranges::find(groups, words, &ShellGroup::words);
+        if (group == groups.end()) group = groups.insert(groups.end(), {words, 0, {}});
+        ++group->shells;
+        group->faces.insert(group->faces.end(), shell.faces.begin(), shell.faces.end());
+    }
+    for (ShellGroup& group : groups) std::ranges::sort(group.faces);
+    return groups;
+}
+
 std::string number_ranges(const std::vector<int>& numbers) {
     std::string text;
     for (std::size_t i = 0; i < numbers.size();) {

@@ -73,6 +73,12 @@ class Umbilics:
         return self._result["faces"]
 
     @property
+    def shells(self) -> List[Dict[str, Any]]:
+        """One entry a shell, as in the JSON result: faces, genus, sum of the indices and what it proves. Empty where
+        only one face was searched."""
+        return self._result["shells"]
+
+    @property
     def isolated(self) -> List[Dict[str, Any]]:
         """The isolated umbilics of all faces, each with the number of its "face"; also those outside the loops."""
         return [{"face": face["face"], **umbilic} for face in self.faces for umbilic in face["umbilics"]]

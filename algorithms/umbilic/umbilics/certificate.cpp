@@ -176,7 +176,8 @@ Certificate certify(const BorderWinding& winding, const FaceUmbilics& found) {
     if (!found.regions.empty()) left_out.push_back("umbilic regions");
     if (!found.lines.empty()) left_out.push_back("lines of umbilics");
     if (!found.undecided.empty()) left_out.push_back("undecided places");
-    if (winding.left_out > 0) left_out.push_back("places on the border where (A, B) is lost in rounding");
+    if (winding.left_out > 0)
+        left_out.push_back("places on the border where the principal directions are lost in rounding");
     std::string outside;
     for (std::size_t k = 0; k < left_out.size(); ++k)
         outside += (k == 0 ? ", outside of " : k + 1 < left_out.size() ? ", " : " and ") + left_out[k];
