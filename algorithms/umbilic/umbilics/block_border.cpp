@@ -76,8 +76,8 @@ std::optional<double> BlockBorder::excess() {
         const std::vector<BorderSide> border = border_of_difference(kept_, removed_);
         std::vector<BorderSide> obstacles;
         if (const std::optional<double> winding = turning_.winding(border, &obstacles)) return excess_of(*winding);
-        if (obstacles.empty()) break;
-        if (!leave_out(obstacles)) break;
+        if (obstacles.empty()) obstacle_ = border.front().from;
+        if (obstacles.empty() || !leave_out(obstacles)) break;
     }
     return std::nullopt;
 }

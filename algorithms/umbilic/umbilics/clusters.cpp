@@ -140,9 +140,14 @@ std::optional<double> index_in_block(const NurbsSurface& surface, const BezierPa
         if (std::any_of(parts.begin(), parts.end(),
                         [&](const OpenPart& other) { return !meet(other.box, cluster) && meet(other.box, narrow); }))
             continue;
-        for (const ParameterBox& ring : {narrow, wide}) {
+        // Beyond the block the polynomials may have zeros of their own: no farther out than some of the cluster's own
+        // sizes.
+        const bool near =
+            margin.x() <= ring_shares.back() * part.u.length() && margin.y() <= ring_shares.back() * part.v.length();
+        for (const ParameterBox* const ring : {&narrow, near ? &wide : nullptr}) {
+            if (!ring) continue;
             const std::optional<double> winding =
-                turning.winding(border_of_difference(std::span<const ParameterBox>(&ring, 1), {}));
+                turning.winding(border_of_difference(std::span<const ParameterBox>(ring, 1), {}));
             if (!winding) continue;
             double index = 0.5 * *winding;
             for (const Umbilic& umbilic : result.umbilics)
