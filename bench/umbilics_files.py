@@ -19,6 +19,7 @@ FILES = [
     "pairs/b777_openvsp.stp",
     "pairs/b777_onshape.step",
     "freeform/nacelle_quintic.stp",
+    "freeform/kvlcc2m_tanker_hull.iges",
 ]
 
 

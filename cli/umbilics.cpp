@@ -6,6 +6,7 @@
 
 #include <umbilic/core/errors.h>
 #include <umbilic/umbilics/find.h>
+#include <umbilic/umbilics/shell_certificate.h>
 
 #include <cli/commands.h>
 #include <cli/console.h>
@@ -44,6 +45,14 @@ std::string face_lines(const Model& model, const std::vector<FaceUmbilics>& all)
         lines.emplace_back(name, group.words + (group.faces.size() > 1 ? ": " + number_ranges(group.faces) : ""));
     }
     return facts(lines);
+}
+
+std::string shell_lines(const std::vector<ShellCertificate>& shells) {
+    std::vector<std::pair<std::string, std::string>> lines;
+    for (const ShellGroup& group : shell_groups(shells))
+        lines.emplace_back(group.shells == 1 ? "Shell" : counted(group.shells, "shell"),
+                           group.words + (shells.size() > 1 ? ": faces " + number_ranges(group.faces) : ""));
+    return lines.empty() ? "" : "\n" + facts(lines);
 }
 
 std::string umbilic_table(const Model& model, const std::vector<FaceUmbilics>& all) {
@@ -123,6 +132,7 @@ void add_umbilics(CLI::App& application, Session& session, Command& command) {
             const ReadResult read = load(session, options->path, reading, progress.part(0.0, 0.4));
             const Model& model = read.model;
             std::vector<FaceUmbilics> found;
+            std::vector<ShellCertificate> shells;
             if (options->face > 0) {
                 const auto face = std::find_if(model.faces.begin(), model.faces.end(), [&](const Face& candidate) {
                     return candidate.number == options->face;
@@ -133,17 +143,20 @@ void add_umbilics(CLI::App& application, Session& session, Command& command) {
                 }
                 found.push_back(find_umbilics(*face, options->search, progress.part(0.4, with_report ? 0.8 : 1.0)));
             } else {
-                found = find_umbilics(model, options->search, progress.part(0.4, with_report ? 0.8 : 1.0));
+                found = find_umbilics(model, options->search, progress.part(0.4, with_report ? 0.75 : 0.9));
+                shells =
+                    shell_certificates(model, found, progress.part(with_report ? 0.75 : 0.9, with_report ? 0.8 : 1.0));
             }
-            const Json result = umbilics_json(model, found);
+            const Json result = umbilics_json(model, found, shells);
             if (with_report) {
-                const UmbilicsReportInput input{model, read.meshes, found, options->search, session.command_line};
+                const UmbilicsReportInput input{model,           read.meshes,          found,
+                                                options->search, session.command_line, shells};
                 write_umbilics_report(options->report, input, result, progress.part(0.8, 1.0));
             }
             clear_progress_bar();
             const UmbilicCounts counts = count_umbilics(model, found);
             std::string text = bold(printable(base_name(options->path)) + ": " + umbilics_headline(counts)) + "\n" +
-                               umbilics_explanation(counts) + "\n\n" + face_lines(model, found) +
+                               umbilics_explanation(counts) + "\n\n" + face_lines(model, found) + shell_lines(shells) +
                                umbilic_table(model, found) + lines_and_regions_text(model, found);
             if (with_report) {
                 text += "\nReport: " + (std::filesystem::path(options->report) / "report.html").string() + "\n";

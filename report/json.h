@@ -10,6 +10,7 @@
 
 #include <umbilic/differential/recognise.h>
 #include <umbilic/similarity/compare.h>
+#include <umbilic/umbilics/shell_certificate.h>
 
 namespace umbilic {
 
@@ -32,9 +33,11 @@ Json input_json(const Model& model);
 /// Schema "umbilic.info/1". `recognised` as recognise() gives it for this model.
 Json info_json(const Model& model, const std::vector<std::optional<RecognisedSurface>>& recognised);
 
-/// Schema "umbilic.umbilics/1". `umbilics` as find_umbilics() gives them for this model, or for some of its faces. The
-/// parameters u and v are those of the file's own surfaces.
-Json umbilics_json(const Model& model, const std::vector<FaceUmbilics>& umbilics);
+/// Schema "umbilic.umbilics/1". `umbilics` as find_umbilics() gives them for this model, or for some of its faces;
+/// `shells` as shell_certificates() gives them, none where not all faces were searched. The parameters u and v are
+/// those of the file's own surfaces.
+Json umbilics_json(const Model& model, const std::vector<FaceUmbilics>& umbilics,
+                   const std::vector<ShellCertificate>& shells = {});
 
 /// The pose alone, part of both results below. What was not found is null.
 Json alignment_json(const Alignment& alignment);

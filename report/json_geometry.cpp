@@ -48,6 +48,16 @@ Json certificate_json(const Certificate& certificate) {
             {"why", certificate.why}};
 }
 
+Json shell_json(const ShellCertificate& shell) {
+    return {{"faces", shell.faces},
+            {"closed", shell.closed},
+            {"euler_characteristic", optional_json(shell.euler_characteristic)},
+            {"genus", optional_json(shell.genus())},
+            {"index_sum", shell.complete ? number_json(shell.index_sum) : Json(nullptr)},
+            {"complete", optional_json(shell.complete)},
+            {"why", shell.why}};
+}
+
 Json face_umbilics_json(const Face& face, const FaceUmbilics& found) {
     Json umbilics = Json::array();
     for (const Umbilic& umbilic : found.umbilics) umbilics.push_back(umbilic_json(face, umbilic));
@@ -190,10 +200,16 @@ Json umbilic_json(const Face& face, const Umbilic& umbilic) {
                                                     : Json(umbilic.pole == PoleKind::inner ? "inner" : "border")}};
 }
 
-Json umbilics_json(const Model& model, const std::vector<FaceUmbilics>& umbilics) {
+Json umbilics_json(const Model& model, const std::vector<FaceUmbilics>& umbilics,
+                   const std::vector<ShellCertificate>& shells) {
     Json faces = Json::array();
     for (const FaceUmbilics& found : umbilics) faces.push_back(face_umbilics_json(model.face(found.face), found));
-    return {{"schema", "umbilic.umbilics/1"}, {"input", input_json(model)}, {"faces", std::move(faces)}};
+    Json of_shells = Json::array();
+    for (const ShellCertificate& shell : shells) of_shells.push_back(shell_json(shell));
+    return {{"schema", "umbilic.umbilics/1"},
+            {"input", input_json(model)},
+            {"faces", std::move(faces)},
+            {"shells", std::move(of_shells)}};
 }
 
 }  // namespace umbilic

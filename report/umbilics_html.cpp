@@ -363,6 +363,16 @@ std::string umbilics_html(const UmbilicsReportInput& input, const Progress& prog
         groups.push_back(entry);
     }
     page.set("groups", groups);
+    PageData shells{PageData::type::list};
+    for (const ShellGroup& group : shell_groups(input.shells)) {
+        PageData entry;
+        entry.set("words", group.words);
+        entry.set("faces", number_ranges(group.faces));
+        entry.set("count", readable_count(group.shells));
+        shells.push_back(entry);
+    }
+    page.set("shells", shells);
+    page.set("has_shells", !shells.list_value().empty());
     page.set("has_groups", !groups.list_value().empty());
     page.set("skipped", skipped(input.model));
     page.set("has_skipped", !input.model.skipped.empty());

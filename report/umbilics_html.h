@@ -8,6 +8,7 @@
 #include <umbilic/model/display_mesh.h>
 #include <umbilic/model/model.h>
 #include <umbilic/umbilics/find.h>
+#include <umbilic/umbilics/shell_certificate.h>
 
 namespace umbilic {
 
@@ -17,7 +18,8 @@ struct UmbilicsReportInput {
     const std::vector<DisplayMesh>& meshes;
     const std::vector<FaceUmbilics>& umbilics;  ///< of all faces or of some
     const UmbilicOptions& options;
-    std::string command_line;  ///< that computes the same again
+    std::string command_line;                   ///< that computes the same again
+    std::vector<ShellCertificate> shells = {};  ///< none where not all faces were searched
 };
 
 /// The report as one HTML page that needs no other file and no network: what was found and how far it is proved, the

@@ -92,8 +92,9 @@ std::string umbilics_explanation(const UmbilicCounts& counts) {
                                                : readable_count(counts.whole) + " faces are planes or spheres") +
                             ": every point is an umbilic.");
     if (searched > 0 && searched == counts.complete)
-        sentences.push_back((counts.isolated + counts.outside == 0 ? "It is proved that there is none on "
-                                                                   : "The list is proved to be complete on ") +
+        sentences.push_back((counts.isolated + counts.outside + counts.lines + counts.regions + counts.undecided == 0
+                                 ? "It is proved that there is none on "
+                                 : "The list is proved to be complete on ") +
                             all + ".");
     else if (searched > 0 && searched == open)
         sentences.push_back("The list could not be proved to be complete on " +
@@ -128,8 +129,12 @@ std::string certificate_words(const FaceUmbilics& found) {
     if (!*certificate.complete) return "not complete: " + certificate.why;
     if (!found.undecided.empty())
         return "complete but for the undecided places: every other umbilic of this face is listed; proved";
-    return found.umbilics.empty() ? "complete: there is no umbilic; proved"
-                                  : "complete: every umbilic of this face is listed; proved";
+    std::vector<std::string> besides;
+    if (!found.lines.empty()) besides.push_back(found.lines.size() == 1 ? "the line" : "the lines");
+    if (!found.regions.empty()) besides.push_back(found.regions.size() == 1 ? "the region" : "the regions");
+    const std::string except = besides.empty() ? "" : "besides " + listed(besides) + " ";
+    return found.umbilics.empty() ? "complete: " + except + "there is no umbilic; proved"
+                                  : "complete: " + except + "every umbilic of this face is listed; proved";
 }
 
 std::string type_words(const Umbilic& umbilic) {
@@ -170,6 +175,29 @@ std::vector<FaceGroup> plain_faces(const Model& model, const std::vector<FaceUmb
         if (group == groups.end()) group = groups.insert(groups.end(), {words, {}});
         group->faces.push_back(face.number);
     }
+    return groups;
+}
+
+std::string shell_words(const ShellCertificate& shell) {
+    std::string text = shell.closed ? "closed" : "open";
+    if (const std::optional<int> genus = shell.genus()) text += ", genus " + std::to_string(*genus);
+    if (!shell.complete) return text + "; completeness " + shell.why;
+    const std::string sum = "the indices of its umbilics sum to " + readable(shell.index_sum, 3);
+    if (!*shell.complete)
+        return text + "; not complete: " + sum + " instead of " + readable(*shell.euler_characteristic, 3);
+    return text + "; complete: " + sum + ", Euler's characteristic";
+}
+
+std::vector<ShellGroup> shell_groups(const std::vector<ShellCertificate>& shells) {
+    std::vector<ShellGroup> groups;
+    for (const ShellCertificate& shell : shells) {
+        const std::string words = shell_words(shell);
+        auto group = std::ranges::find(groups, words, &ShellGroup::words);
+        if (group == groups.end()) group = groups.insert(groups.end(), {words, 0, {}});
+        ++group->shells;
+        group->faces.insert(group->faces.end(), shell.faces.begin(), shell.faces.end());
+    }
+    for (ShellGroup& group : groups) std::ranges::sort(group.faces);
     return groups;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <umbilic/model/model.h>
+#include <umbilic/umbilics/shell_certificate.h>
 #include <umbilic/umbilics/umbilic.h>
 
 namespace umbilic {
@@ -45,6 +46,17 @@ struct FaceGroup {
     std::vector<int> faces;
 };
 std::vector<FaceGroup> plain_faces(const Model& model, const std::vector<FaceUmbilics>& all);
+
+/// A shell's certificate in plain words, e.g. "closed, genus 0; complete: the indices sum to Euler's characteristic 2".
+std::string shell_words(const ShellCertificate& shell);
+
+/// Shells gathered under what is to be said of them; `faces` are those of all of them.
+struct ShellGroup {
+    std::string words;
+    std::size_t shells = 0;
+    std::vector<int> faces;
+};
+std::vector<ShellGroup> shell_groups(const std::vector<ShellCertificate>& shells);
 
 /// Numbers in increasing order with runs joined: "1–4, 7".
 std::string number_ranges(const std::vector<int>& numbers);

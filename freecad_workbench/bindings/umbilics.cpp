@@ -8,6 +8,7 @@
 
 #include <report/json.h>
 #include <umbilic/umbilics/find.h>
+#include <umbilic/umbilics/shell_certificate.h>
 
 #include "interruptible.h"
 #include "loaded_model.h"
@@ -26,12 +27,14 @@ std::string find_umbilics_json(const LoadedModel& loaded, std::optional<int> fac
         if (resolution) options.resolution = *resolution;
         options.accuracy = accuracy;
         std::vector<FaceUmbilics> faces;
+        std::vector<ShellCertificate> shells;
         if (face) {
             faces.push_back(find_umbilics(model.face(*face), options, handle));
         } else {
-            faces = find_umbilics(model, options, handle);
+            faces = find_umbilics(model, options, handle.part(0.0, 0.9));
+            shells = shell_certificates(model, faces, handle.part(0.9, 1.0));
         }
-        return text(umbilics_json(model, faces));
+        return text(umbilics_json(model, faces, shells));
     });
 }
 

@@ -56,6 +56,8 @@ def certificate_words(face: Dict[str, Any]) -> str:
         return "not complete: " + certificate["why"]
     if face["undecided"]:
         return "complete but for undecided places"
+    if face["lines"] or face["regions"]:
+        return "complete" if face["umbilics"] else "no other umbilic, proved"
     return "complete" if face["umbilics"] else "no umbilic, proved"
 
 
@@ -69,6 +71,12 @@ class Umbilics:
     def faces(self) -> List[Dict[str, Any]]:
         """One entry a face, as in the JSON result: umbilics, lines, regions, certificate."""
         return self._result["faces"]
+
+    @property
+    def shells(self) -> List[Dict[str, Any]]:
+        """One entry a shell, as in the JSON result: faces, genus, sum of the indices and what it proves. Empty where
+        only one face was searched."""
+        return self._result["shells"]
 
     @property
     def isolated(self) -> List[Dict[str, Any]]:

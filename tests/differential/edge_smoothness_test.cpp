@@ -76,6 +76,59 @@ TEST(EdgeSmoothness, OneSmoothSurfaceCutInTwoHasNoJump) {
     EXPECT_LE(edge.bend, 1e-12);
     EXPECT_LE(edge.curvature_jump, 1e-11);
     EXPECT_GT(edge.curvature, 0.1);
+    EXPECT_LE(edge.direction_jump, 1e-9);
+}
+
+TEST(EdgeSmoothness, DirectionsJumpByTheAngleBetweenThem) {
+    // Graphs z = (k x^2 + 2 m x y + l y^2) / 2 that meet along x = 0: m and l agree there, k jumps.
+    const auto half = [](double side, double k, double m, double l) {
+        SimilarityTransform shift;
+        shift.translation = Vector3(side, 0, 0);
+        return support::transformed(support::graph_patch(2, 2,
+                                                         [&](double x, double y) {
+                                                             const double at = x + side;
+                                                             return (k * at * at + 2 * m * at * y + l * y * y) / 2;
+                                                         }),
+                                    shift);
+    };
+    for (const auto& [k, m] : {std::pair{3.0, 0.0}, {0.5, 0.0}, {3.0, 0.4}, {-2.0, 0.7}}) {
+        // Nearly flat, so that the frames of the edge are those of the plane. kappa = -II.
+        constexpr double flat = 1e-3;
+        const auto angle = [&](double kx) { return 0.5 * std::atan2(-2 * m, -(kx - 1)); };
+        const double expected = std::abs(std::remainder(angle(k) - angle(2), std::numbers::pi));
+        for (const NurbsSurface& other :
+             {half(1, k * flat, m * flat, flat), half(1, k * flat, m * flat, flat).swapped(),
+              half(1, k * flat, m * flat, flat).u_reversed()}) {
+            const EdgeSmoothness edge = of_shared_edge({half(-1, 2 * flat, m * flat, flat), other});
+            EXPECT_NEAR(edge.direction_jump, expected, 1e-5) << k << ' ' << m;
+            EXPECT_LE(edge.bend, 1e-12);
+        }
+    }
+}
+
+Face face_of(const NurbsSurface& surface) {
+    return support::model_of({surface}).faces.front();
+}
+
+TEST(KnotSmoothness, ShapesCanBeSmootherThanTheirKnots) {
+    for (const NurbsSurface& surface : {support::full_torus(3, 1), support::ellipsoid_octant(3, 2, 1).swapped()}) {
+        const EdgeSmoothness knots = knot_smoothness(face_of(surface));
+        EXPECT_LE(knots.bend, 1e-12);
+        EXPECT_LE(knots.curvature_jump, 1e-11);
+        EXPECT_LE(knots.direction_jump, 1e-9);
+    }
+    EXPECT_GT(knot_smoothness(face_of(support::full_torus(3, 1))).samples, 0);
+    EXPECT_EQ(knot_smoothness(face_of(support::smooth_bicubic(8, 1))).samples, 0);
+}
+
+TEST(KnotSmoothness, BiquadraticsJumpAndPolygonsBend) {
+    const NurbsSurface biquadratic = support::random_surface(2, 2, 6, 6, 1, 0.1);
+    const EdgeSmoothness jumping = knot_smoothness(face_of(biquadratic));
+    EXPECT_LE(jumping.bend, 1e-12);
+    EXPECT_GT(jumping.curvature_jump, 0.1);
+    EXPECT_GT(jumping.direction_jump, 0.1);
+    const EdgeSmoothness bent = knot_smoothness(face_of(support::random_surface(1, 3, 6, 6, 1, 0.1)));
+    EXPECT_GT(bent.bend, 0.01);
 }
 
 }  // namespace

@@ -22,13 +22,18 @@ def test_result_is_the_contracts_json(bottle):
     data = result.to_dict()
     assert data["schema"] == "umbilic.umbilics/1"
     assert data["faces"] == result.faces
+    assert data["shells"] == result.shells
+    assert sorted(face for shell in result.shells for face in shell["faces"]) == [face["face"] for face in result.faces]
+    assert all(shell["why"] for shell in result.shells)
     data["faces"].clear()
     assert result.faces, "to_dict() must be a copy"
 
 
 def test_one_face_alone_is_the_same_as_among_all(bottle):
     every = umbilic.umbilics(bottle).faces
-    assert umbilic.umbilics(bottle, face=1).faces == every[:1]
+    one = umbilic.umbilics(bottle, face=1)
+    assert one.faces == every[:1]
+    assert one.shells == []
 
 
 def test_types_within_the_accuracy(models):

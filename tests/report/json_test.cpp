@@ -106,6 +106,18 @@ TEST(Json, Umbilics) {
     const auto made = made_comparison();
     const Json json = umbilics_json(made->original_model, made->original->features.umbilics);
     EXPECT_EQ(json.at("schema"), "umbilic.umbilics/1");
+    EXPECT_TRUE(json.at("shells").empty());
+    const std::vector<ShellCertificate> shells =
+        shell_certificates(made->original_model, made->original->features.umbilics);
+    const Json with_shells = umbilics_json(made->original_model, made->original->features.umbilics, shells);
+    ASSERT_EQ(with_shells.at("shells").size(), 1u);
+    expect_keys(with_shells.at("shells").at(0), {{"faces/0", "integer"},
+                                                 {"closed", "boolean"},
+                                                 {"euler_characteristic", "integer?"},
+                                                 {"genus", "integer?"},
+                                                 {"index_sum", "number?"},
+                                                 {"complete", "boolean?"},
+                                                 {"why", "string"}});
     const Json& face = json.at("faces").at(0);
     expect_keys(face, {{"face", "integer"},
                        {"surface", "string"},

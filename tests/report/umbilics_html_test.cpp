@@ -64,6 +64,12 @@ TEST(UmbilicsHtml, TellsWhatWasFoundAndProvedFirst) {
     EXPECT_LT(headline, page.find("<h2>"));
     EXPECT_LT(page.find("proved to be complete on the face"), page.find("<h2>"));
     EXPECT_NE(page.find("complete: every umbilic of this face is listed; proved"), std::string::npos);
+    EXPECT_EQ(page.find("Whole shells"), std::string::npos);
+    UmbilicsReportInput with_shells = made.input();
+    with_shells.shells = shell_certificates(with_shells.model, with_shells.umbilics);
+    const std::string wider = umbilics_html(with_shells);
+    EXPECT_NE(wider.find("Whole shells"), std::string::npos);
+    EXPECT_NE(wider.find("the shell is open, with 4 free edges"), std::string::npos);
     EXPECT_NE(page.find("monstar</span><span>flat"), std::string::npos);
     EXPECT_EQ(count(page, "<svg class=\"pattern\""), 5u);
     EXPECT_NE(page.find("umbilic umbilics a"), std::string::npos);

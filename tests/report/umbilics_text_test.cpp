@@ -47,8 +47,30 @@ TEST(UmbilicsText, WhatIsNotProvedIsSaid) {
     found.certificate = {1.0, 0.5, false, "an umbilic is missing"};
     EXPECT_EQ(certificate_words(found), "not complete: an umbilic is missing");
     found.certificate.complete = true;
+    found.lines.resize(2);
+    EXPECT_EQ(certificate_words(found), "complete: besides the lines there is no umbilic; proved");
+    found.regions.emplace_back();
+    found.umbilics.emplace_back();
+    EXPECT_EQ(certificate_words(found),
+              "complete: besides the lines and the region every umbilic of this face is listed; proved");
     found.undecided.push_back({});
     EXPECT_NE(certificate_words(found).find("but for the undecided places"), std::string::npos);
+}
+
+TEST(UmbilicsText, ShellsOfOneKindAreGathered) {
+    std::vector<ShellCertificate> shells;
+    shells.push_back({{1, 2}, true, 2, 2.0, true, "the indices sum"});
+    shells.push_back({{4}, false, std::nullopt, 0.0, std::nullopt, "not evaluated: the shell is open"});
+    shells.push_back({{3}, true, 2, 2.0, true, "the indices sum"});
+    shells.push_back({{5}, true, -2, -1.5, false, "an umbilic is missing"});
+    const std::vector<ShellGroup> groups = shell_groups(shells);
+    ASSERT_EQ(groups.size(), 3u);
+    EXPECT_EQ(groups[0].words,
+              "closed, genus 0; complete: the indices of its umbilics sum to 2, Euler's characteristic");
+    EXPECT_EQ(groups[0].shells, 2u);
+    EXPECT_EQ(groups[0].faces, (std::vector{1, 2, 3}));
+    EXPECT_EQ(groups[1].words, "open; completeness not evaluated: the shell is open");
+    EXPECT_EQ(groups[2].words, "closed, genus 2; not complete: the indices of its umbilics sum to −1.5 instead of −2");
 }
 
 TEST(UmbilicsText, TypesAndTheirNeighbours) {

@@ -9,6 +9,7 @@
 #include <support/surfaces.h>
 #include <umbilic/core/errors.h>
 #include <umbilic/differential/fundamental_forms.h>
+#include <umbilic/nurbs/bezier_patch.h>
 #include <umbilic/umbilics/certificate.h>
 #include <umbilic/umbilics/find.h>
 
@@ -67,14 +68,37 @@ TEST(Certificate, UnequalKnotSpansKeepItWhole) {
 }
 
 TEST(Certificate, SaysWhyItCannotBeEvaluated) {
-    const FaceUmbilics plane = find_umbilics(support::smooth_bicubic(6, 1, 0.0));
-    EXPECT_FALSE(plane.certificate.complete);
-    EXPECT_NE(plane.certificate.why.find("region"), std::string::npos);
     UmbilicOptions options;
+    options.boxes_per_patch = 10;
+    const FaceUmbilics cut_short = find_umbilics(support::table_3_1_patch(), options);
+    EXPECT_FALSE(cut_short.certificate.complete);
+    EXPECT_NE(cut_short.certificate.why.find("used up its boxes"), std::string::npos);
+    options = {};
     options.certificate = false;
     const FaceUmbilics unasked = find_umbilics(support::table_3_1_patch(), options);
     EXPECT_FALSE(unasked.certificate.complete);
     EXPECT_FALSE(unasked.certificate.why.empty());
+}
+
+/// Every umbilic that is taken out of the list, and every one listed twice, is noticed.
+void expect_each_is_missed(const FaceUmbilics& found) {
+    ASSERT_TRUE(found.certificate.complete) << found.certificate.why;
+    ASSERT_TRUE(*found.certificate.complete);
+    double undecided = 0.0;
+    for (const UndecidedCluster& cluster : found.undecided) undecided += *cluster.index;
+    const BorderWinding winding{found.certificate.boundary_winding - undecided, found.certificate.why};
+    ASSERT_TRUE(*certify(winding, found).complete);
+    for (std::size_t k = 0; k < found.umbilics.size(); ++k) {
+        FaceUmbilics lacking = found;
+        lacking.umbilics.erase(lacking.umbilics.begin() + k);
+        const Certificate certificate = certify(winding, lacking);
+        ASSERT_TRUE(certificate.complete);
+        EXPECT_FALSE(*certificate.complete);
+        EXPECT_NE(certificate.why.find("missing"), std::string::npos);
+        FaceUmbilics twice = found;
+        twice.umbilics.push_back(found.umbilics[k]);
+        EXPECT_FALSE(*certify(winding, twice).complete);
+    }
 }
 
 /// Graph of a star at (x, y) of the square [-1, 1]^2 and nothing else.
@@ -105,26 +129,57 @@ TEST(Certificate, BorderGoesAroundUmbilicsOnIt) {
     }
 }
 
-TEST(Certificate, CatchesAMissingUmbilic) {
-    for (unsigned seed = 0; seed < 3; ++seed) {
-        const NurbsSurface surface = support::rough_bicubic(8, seed);
-        const FaceUmbilics found = find_umbilics(surface);
-        ASSERT_TRUE(found.certificate.complete);
-        ASSERT_TRUE(*found.certificate.complete);
-        const BorderWinding winding{found.certificate.boundary_winding, found.certificate.why};
-        ASSERT_TRUE(*certify(winding, found).complete);
-        for (std::size_t k = 0; k < found.umbilics.size(); ++k) {
-            FaceUmbilics lacking = found;
-            lacking.umbilics.erase(lacking.umbilics.begin() + k);
-            const Certificate certificate = certify(winding, lacking);
-            ASSERT_TRUE(certificate.complete);
-            EXPECT_FALSE(*certificate.complete);
-            EXPECT_NE(certificate.why.find("missing"), std::string::npos);
-        }
-        // One listed twice is caught as well.
-        FaceUmbilics twice = found;
-        twice.umbilics.push_back(found.umbilics.front());
-        EXPECT_FALSE(*certify(winding, twice).complete);
+TEST(Certificate, CatchesAMissingUmbilicOfAFace) {
+    for (unsigned seed = 0; seed < 3; ++seed) expect_each_is_missed(find_umbilics(support::rough_bicubic(8, seed)));
+}
+
+TEST(Certificate, CatchesAMissingUmbilicOfAPatch) {
+    const NurbsSurface whole = support::rough_bicubic(8, 0);
+    int patches = 0;
+    for (const BezierPatch& patch : bezier_patches(whole).patches) {
+        std::vector<Vector3> poles;
+        for (const Vector4& pole : patch.poles) poles.push_back(pole.head<3>());
+        const FaceUmbilics found =
+            find_umbilics(NurbsSurface(KnotVector::bezier(3), KnotVector::bezier(3), std::move(poles)));
+        expect_each_is_missed(found);
+        patches += !found.umbilics.empty();
+    }
+    EXPECT_GE(patches, 5);
+}
+
+TEST(Certificate, GoesAroundLinesInside) {
+    // z = r^2 / 2 + (r^2 - 1/4)^3 touches a paraboloid on the circle r = 1/2 to second order.
+    const NurbsSurface ring = support::graph_patch(6, 6, [](double x, double y) {
+        const double s = x * x + y * y - 0.25;
+        return (x * x + y * y) / 2 + s * s * s;
+    });
+    const FaceUmbilics found = find_umbilics(ring);
+    ASSERT_FALSE(found.lines.empty());
+    ASSERT_TRUE(found.certificate.complete) << found.certificate.why;
+    EXPECT_TRUE(*found.certificate.complete);
+    EXPECT_NE(found.certificate.why.find("lines of umbilics"), std::string::npos);
+}
+
+TEST(Certificate, GoesAroundRegionsOnTheBorder) {
+    // A planar part of 6 x 20 control points beside heights that have umbilics.
+    const NurbsSurface base = support::rough_bicubic(14, 3);
+    std::vector<Vector3> poles = base.poles();
+    for (int i = 0; i < 6; ++i)
+        for (int j = 0; j < 14; ++j) poles[i * 14 + j].z() = 0.0;
+    const FaceUmbilics found = find_umbilics(NurbsSurface(base.u_knots(), base.v_knots(), std::move(poles)));
+    ASSERT_FALSE(found.regions.empty());
+    ASSERT_GE(found.umbilics.size(), 5u);
+    EXPECT_NE(found.certificate.why.find("umbilic regions"), std::string::npos);
+    expect_each_is_missed(found);
+}
+
+TEST(Certificate, NarrowPatchesAreFollowed) {
+    // In a patch a millionth as long as its neighbours B is lost in rounding and A alone tells the half plane.
+    const NurbsSurface base = support::rough_bicubic(8, 2);
+    for (const double width : {1e-3, 1e-6}) {
+        const KnotVector knots(3, {0, 0, 0, 0, 0.2, 0.4, 0.6, 0.6 + width, 1, 1, 1, 1});
+        const FaceUmbilics found = find_umbilics(NurbsSurface(knots, base.v_knots(), base.poles()));
+        expect_each_is_missed(found);
     }
 }
 

@@ -37,7 +37,20 @@ void expect_one_region(const FaceUmbilics& found, UmbilicRegionKind kind, double
     ASSERT_EQ(found.regions.size(), 1u);
     EXPECT_EQ(found.regions[0].kind, kind);
     EXPECT_NEAR(found.regions[0].area, area, relative * area);
-    EXPECT_FALSE(found.certificate.complete);
+    EXPECT_TRUE(found.certificate.complete.value_or(false)) << found.certificate.why;
+}
+
+TEST(SpecialSurfaces, PinchPointIsNoUmbilic) {
+    // Whitney's umbrella (u, u v, v^2): at the origin A = -2 v, B = 2 u vanish as at an umbilic, but so does r_v.
+    const double v[3] = {-1, 0, 1}, squared[3] = {1, -1, 1};
+    std::vector<Vector3> poles;
+    for (const double u : {-1.0, 1.0})
+        for (int j = 0; j < 3; ++j) poles.emplace_back(u, u * v[j], squared[j]);
+    const FaceUmbilics found = find_umbilics(NurbsSurface(KnotVector::bezier(1), KnotVector::bezier(2), poles));
+    EXPECT_TRUE(found.umbilics.empty());
+    ASSERT_EQ(found.undecided.size(), 1u);
+    EXPECT_EQ(found.undecided[0].index, 0.5);
+    EXPECT_TRUE(found.undecided[0].boxes.front().contains(0.5, 0.5));
 }
 
 TEST(SpecialSurfaces, CylinderAndTorusHaveNoUmbilics) {

@@ -16,7 +16,8 @@ namespace umbilic {
 /// Half the winding of (A, B) around what was searched: what the indices of its umbilics must sum to.
 struct BorderWinding {
     std::optional<double> turns;
-    std::string why;  ///< how it was evaluated, or why it could not be
+    std::string why;   ///< how it was evaluated, or why it could not be
+    int left_out = 0;  ///< places on the border, without umbilics, at which it could not be and which it goes around
 };
 
 /// Parts of `range` on which the surface is twice continuously differentiable.
@@ -27,12 +28,15 @@ std::vector<PatchRange> smooth_blocks(const NurbsSurface& surface, const PatchRa
 ///   that is seen from several sides of a border (a seam, a knot of low continuity) counts once.
 /// - A pole is a hole in the parameter plane: the border runs along its circle, and its own index is added if the
 ///   surface closes around it.
+/// - `open`, the boxes on which the search proved nothing, are left out: the border runs around them too.
+/// What is listed in the parts left out is added, so that the result is comparable with the sum of all indices.
 BorderWinding border_winding(const NurbsSurface& surface, const BezierPatches& patches, const InputRounding& input,
                              const PatchRange& range, const std::vector<PatchUmbilics>& found,
-                             const std::vector<SightedUmbilic>& umbilics, std::span<const Pole> poles);
+                             const std::vector<SightedUmbilic>& umbilics, std::span<const Pole> poles,
+                             std::span<const ParameterBox> open);
 
-/// Compares the indices listed in `found`, those of undecided clusters included, with the winding. Where no winding is
-/// at hand, or there are lines, regions or clusters without index, the certificate has no verdict and says why.
+/// Compares the indices listed in `found` with the winding; undecided clusters are added to both with their index.
+/// Without a verdict, and saying why, where no winding is at hand, the search was cut short, or a cluster has no index.
 Certificate certify(const BorderWinding& winding, const FaceUmbilics& found);
 
 }  // namespace umbilic

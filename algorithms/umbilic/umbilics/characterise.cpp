@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include <Eigen/Geometry>
+
 #include <umbilic/bernstein/rounding.h>
 #include <umbilic/differential/fundamental_forms.h>
 #include <umbilic/umbilics/sensitivity.h>
@@ -167,6 +169,14 @@ std::optional<Umbilic> characterise(const NurbsSurface& surface, const BezierPat
     const Side v_side = result.at.v >= domain.v.high ? Side::left : Side::right;
     const SurfaceDerivatives d = surface.derivatives(result.at.u, result.at.v, 3, u_side, v_side);
     if (!regular(d)) return std::nullopt;
+
+    // A and B vanish also where the normal does, which is no umbilic: it must not where the zero of any surface that
+    // rounds to this one may lie.
+    const Vector3 normal_u = d.r_uu().cross(d.r_v()) + d.r_u().cross(d.r_uv());
+    const Vector3 normal_v = d.r_uv().cross(d.r_v()) + d.r_u().cross(d.r_vv());
+    const double normal_change = zero.input_radius.x() * domain.u.length() * normal_u.norm() +
+                                 zero.input_radius.y() * domain.v.length() * normal_v.norm();
+    if (!(d.r_u().cross(d.r_v()).norm() > second_order * normal_change)) return std::nullopt;
 
     result.point = d.r();
     const MongeForm monge = monge_form(d);

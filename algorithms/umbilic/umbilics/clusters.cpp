@@ -6,6 +6,8 @@
 #include <map>
 
 #include <umbilic/bernstein/box_clusters.h>
+#include <umbilic/umbilics/block_border.h>
+#include <umbilic/umbilics/certificate.h>
 #include <umbilic/umbilics/lines.h>
 #include <umbilic/umbilics/regions.h>
 #include <umbilic/umbilics/winding.h>
@@ -24,7 +26,8 @@ constexpr double zero_share = 0.5;
 constexpr double border_width = 4.0;
 /// Heaps with a diameter below this many resolutions of the surface's box are a single point (a pole).
 constexpr double point_like = 4.0;
-/// Distances of the ways around a cluster that are tried, in resolutions.
+/// Distances of the ways around a cluster that are tried: relative to its own size, and in resolutions.
+constexpr std::array<double, 4> ring_shares = {0.5, 2.0, 8.0, 32.0};
 constexpr std::array<double, 5> ring_margins = {0.01, 0.1, 1.0, 4.0, 16.0};
 
 /// Boxes that touch, joined.
@@ -107,35 +110,74 @@ std::vector<ParameterBox> take_borders(const NurbsSurface& surface, std::vector<
     return left;
 }
 
+ParameterInterval common_part(const ParameterInterval& a, const ParameterInterval& b) {
+    return {b.clamp(a.low), b.clamp(a.high)};
+}
+
+/// Index of whatever lies in `part` of a cluster, which is in one smooth block, from the winding around it: within the
+/// block or, where (A, B) is too small on the block's border, beyond it, where the polynomials continue. (A, B) may
+/// also be too small near a degenerate point; then a wider way around it is taken, as long as it holds nothing else
+/// that is undecided.
+std::optional<double> index_in_block(const NurbsSurface& surface, const BezierPatches& patches,
+                                     const InputRounding& input, const PatchRange& range,
+                                     const std::vector<OpenPart>& parts, const ParameterBox& cluster,
+                                     const UmbilicOptions& options, const FaceUmbilics& result) {
+    const ParameterBox domain = surface.domain();
+    const std::vector<double>&u = surface.u_knots().breaks(), &v = surface.v_knots().breaks();
+    const ParameterBox block{{u[range.u_first], u[range.u_last]}, {v[range.v_first], v[range.v_last]}};
+    const ParameterBox part{common_part(cluster.u, block.u), common_part(cluster.v, block.v)};
+    std::vector<Vector2> margins;
+    for (const double share : ring_shares) margins.emplace_back(share * part.u.length(), share * part.v.length());
+    for (const double margin : ring_margins)
+        margins.emplace_back(
+            std::max(ring_shares[0] * part.u.length(), margin * options.resolution * domain.u.length()),
+            std::max(ring_shares[0] * part.v.length(), margin * options.resolution * domain.v.length()));
+    PathTurning turning(surface, patches, input, range);
+    for (const Vector2& margin : margins) {
+        const ParameterBox wide{{part.u.low - margin.x(), part.u.high + margin.x()},
+                                {part.v.low - margin.y(), part.v.high + margin.y()}};
+        const ParameterBox narrow{common_part(wide.u, block.u), common_part(wide.v, block.v)};
+        if (std::any_of(parts.begin(), parts.end(),
+                        [&](const OpenPart& other) { return !meet(other.box, cluster) && meet(other.box, narrow); }))
+            continue;
+        // Beyond the block the polynomials may have zeros of their own: no farther out than some of the cluster's own
+        // sizes.
+        const bool near =
+            margin.x() <= ring_shares.back() * part.u.length() && margin.y() <= ring_shares.back() * part.v.length();
+        for (const ParameterBox* const ring : {&narrow, near ? &wide : nullptr}) {
+            if (!ring) continue;
+            const std::optional<double> winding =
+                turning.winding(border_of_difference(std::span<const ParameterBox>(ring, 1), {}));
+            if (!winding) continue;
+            double index = 0.5 * *winding;
+            for (const Umbilic& umbilic : result.umbilics)
+                if (narrow.contains(umbilic.at.u, umbilic.at.v)) index -= umbilic.index;
+            return index;
+        }
+    }
+    return std::nullopt;
+}
+
+/// The sum over the smooth blocks that the cluster lies in.
 std::optional<double> cluster_index(const NurbsSurface& surface, const BezierPatches& patches,
                                     const InputRounding& input, const std::vector<OpenPart>& parts,
                                     const ParameterBox& cluster, const UmbilicOptions& options,
                                     const FaceUmbilics& result) {
-    const ParameterBox domain = surface.domain();
-    // (A, B) may be too small near a degenerate point; then a wider way around it is taken, as long as it holds nothing
-    // else that is undecided.
-    for (const double margin : ring_margins) {
-        const double u_margin = std::max(0.5 * cluster.u.length(), margin * options.resolution * domain.u.length());
-        const double v_margin = std::max(0.5 * cluster.v.length(), margin * options.resolution * domain.v.length());
-        const ParameterBox around{
-            {domain.u.clamp(cluster.u.low - u_margin), domain.u.clamp(cluster.u.high + u_margin)},
-            {domain.v.clamp(cluster.v.low - v_margin), domain.v.clamp(cluster.v.high + v_margin)}};
-        const auto crowds = [&](const OpenPart& part) {
-            const auto meet = [](const ParameterInterval& a, const ParameterInterval& b) {
-                return a.low <= b.high && b.low <= a.high;
-            };
-            const bool own = meet(part.box.u, cluster.u) && meet(part.box.v, cluster.v);
-            return !own && meet(part.box.u, around.u) && meet(part.box.v, around.v);
+    const std::vector<double>&u = surface.u_knots().breaks(), &v = surface.v_knots().breaks();
+    double sum = 0.0;
+    for (const PatchRange& range : smooth_blocks(surface, {0, patches.u_count, 0, patches.v_count})) {
+        const auto overlaps = [](const ParameterInterval& a, double low, double high) {
+            return std::min(a.high, high) > std::max(a.low, low);
         };
-        if (std::any_of(parts.begin(), parts.end(), crowds)) break;
-        const std::optional<double> winding = rectangle_winding(surface, patches, input, around);
-        if (!winding) continue;
-        double index = 0.5 * *winding;
-        for (const Umbilic& umbilic : result.umbilics)
-            if (around.contains(umbilic.at.u, umbilic.at.v)) index -= umbilic.index;
-        return index;
+        if (!overlaps(cluster.u, u[range.u_first], u[range.u_last]) ||
+            !overlaps(cluster.v, v[range.v_first], v[range.v_last]))
+            continue;
+        const std::optional<double> index =
+            index_in_block(surface, patches, input, range, parts, cluster, options, result);
+        if (!index) return std::nullopt;
+        sum += *index;
     }
-    return std::nullopt;
+    return sum;
 }
 
 }  // namespace

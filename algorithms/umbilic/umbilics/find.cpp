@@ -110,6 +110,21 @@ void check(const UmbilicOptions& options) {
     if (!(options.recognition >= 0.0)) throw InvalidInput("umbilic search: recognition must not be negative");
 }
 
+/// Boxes on which the search proved nothing.
+std::vector<ParameterBox> left_open(const FaceUmbilics& found) {
+    std::vector<ParameterBox> result;
+    const auto add = [&](const std::vector<ParameterBox>& boxes) {
+        result.insert(result.end(), boxes.begin(), boxes.end());
+    };
+    for (const UmbilicLine& line : found.lines) add(line.boxes);
+    for (const UndecidedCluster& cluster : found.undecided) add(cluster.boxes);
+    for (const UmbilicRegion& region : found.regions) {
+        add(region.boxes);
+        add(region.border);
+    }
+    return result;
+}
+
 FaceUmbilics search_range(const NurbsSurface& surface, const PatchRange& range, const UmbilicOptions& options,
                           const Progress& progress) {
     const BezierPatches patches = bezier_patches(surface);
@@ -158,7 +173,8 @@ FaceUmbilics search_range(const NurbsSurface& surface, const PatchRange& range, 
               [](const Umbilic& a, const Umbilic& b) { return a.at.u != b.at.u ? a.at.u < b.at.u : a.at.v < b.at.v; });
     if (!open.empty()) sort_open_parts(surface, patches, input, open, options, result);
     if (options.certificate)
-        result.certificate = certify(border_winding(surface, patches, input, range, found, sighted, poles), result);
+        result.certificate =
+            certify(border_winding(surface, patches, input, range, found, sighted, poles, left_open(result)), result);
     else
         result.certificate.why = "not asked for";
     return result;

@@ -20,6 +20,7 @@ std::optional<FaceUmbilics> known_umbilics(const Face& face, const UmbilicOption
     SurfaceKind kind = face.kind;
     ElementarySurface parameters;
     double deviation = face.conversion_error;
+    bool exact = true;
     if (elementary(kind)) {
         if (face.elementary) parameters = *face.elementary;
     } else {
@@ -30,6 +31,7 @@ std::optional<FaceUmbilics> known_umbilics(const Face& face, const UmbilicOption
         kind = recognised->kind;
         parameters = recognised->surface;
         deviation += recognised->deviation;
+        exact = recognised->exact;
         result.recognised = recognised;
     }
     if (umbilic_everywhere(kind)) {
@@ -40,7 +42,13 @@ std::optional<FaceUmbilics> known_umbilics(const Face& face, const UmbilicOption
         region.surface = parameters;
         region.deviation = deviation;
         result.regions.push_back(std::move(region));
-        result.certificate.why = "not evaluated: there are umbilic regions";
+        if (exact) {
+            result.certificate.complete = true;
+            result.certificate.why = std::string("every point of a ") + name(kind) + " is an umbilic";
+        } else {
+            result.certificate.why = std::string("not evaluated: the surface was taken for the ") + name(kind) +
+                                     " that it deviates little from";
+        }
         return result;
     }
     // One principal curvature is everywhere the greater one (a torus of this kind has major > minor radius), and the

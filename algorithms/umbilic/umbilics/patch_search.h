@@ -7,13 +7,14 @@
 
 #include <umbilic/umbilics/common_zeros.h>
 #include <umbilic/umbilics/equations.h>
+#include <umbilic/umbilics/way_turning.h>
 
 namespace umbilic {
 
-/// Angle (radians) through which (A, B) turns along one edge, parameters increasing.
+/// How (A, B) turns along one edge, parameters increasing.
 struct EdgeTurning {
     bool wanted = false;
-    std::optional<double> angle;  ///< none if the edge may hold an umbilic
+    std::optional<WayTurning> way;  ///< none if the edge may hold an umbilic
 };
 
 /// What the search found on one Bezier patch, in the patch's own parameters.

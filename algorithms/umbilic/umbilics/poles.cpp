@@ -214,7 +214,7 @@ std::optional<double> circle_turning(const Row& row, const InputRounding& input,
         if (!(across.low < circle && circle < across.high)) continue;
         const Vector2 start = row.at(along.low, circle), end = row.at(along.high, circle);
         PathTurning turning(row.surface, row.patches, input, block);
-        const std::optional<double> part = turning.along(start, end);
+        const std::optional<WayTurning> part = turning.along(start, end);
         if (!part) return std::nullopt;
         const auto correction = [&](const Vector2& at, Side side) {
             return turn_to_meridian_frame(
@@ -222,7 +222,7 @@ std::optional<double> circle_turning(const Row& row, const InputRounding& input,
                                         across_u(row.edge) ? side : Side::right),
                 !across_u(row.edge));
         };
-        angle += *part + correction(end, Side::left) - correction(start, Side::right);
+        angle += part->between_ends() + correction(end, Side::left) - correction(start, Side::right);
     }
     return angle;
 }

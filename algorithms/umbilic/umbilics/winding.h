@@ -10,14 +10,10 @@
 #include <umbilic/bernstein/subdivision.h>
 #include <umbilic/nurbs/bezier_patch.h>
 #include <umbilic/umbilics/equations.h>
+#include <umbilic/umbilics/rectangle_border.h>
+#include <umbilic/umbilics/way_turning.h>
 
 namespace umbilic {
-
-/// Angle in radians through which the vector (A, B) turns along an edge with increasing parameter, within rounding of
-/// its exact value; none if the edge may hold a common zero. `u_length` and `v_length` are the sides of the patch's
-/// part of the surface's domain: A / u_length and B / v_length are in the surface's parameters up to one common factor,
-/// so that angles of neighbouring patches add up (docs/numerics.md).
-std::optional<double> turning(const EdgeEquations& edge, double u_length, double v_length);
 
 /// Patches (i, j) with first <= i < last in both directions.
 struct PatchRange {
@@ -27,27 +23,30 @@ struct PatchRange {
 
 /// Turning of (A, B) along paths of axis-parallel segments in the parameters of a surface. The range of patches must be
 /// one on which the surface is twice continuously differentiable; beyond its border the outer patches are continued.
-/// The equations of the patches met are formed once.
+/// The equations of the patches met are formed once, and each way is evaluated once.
 class PathTurning {
 public:
     PathTurning(const NurbsSurface& surface, const BezierPatches& patches, const InputRounding& input,
                 const PatchRange& range);
 
-    /// Angle (radians) along the straight way, parallel to an axis; none if a common zero may lie on it.
-    std::optional<double> along(const Vector2& from, const Vector2& to);
-    /// Winding number along the closed path through `corners`, twice the sum of the indices inside if it runs
-    /// counter-clockwise. None if a common zero may lie on it.
-    std::optional<double> winding(std::span<const Vector2> corners);
+    /// The straight way, parallel to an axis; none if a common zero may lie on it: then `obstacle`, if given, is the
+    /// first piece of the way, in the direction of growing parameter, that may hold one.
+    std::optional<WayTurning> along(const Vector2& from, const Vector2& to, BorderSide* obstacle = nullptr);
+    /// Winding number along closed paths of sides in any order. None if a common zero may lie on a side: then
+    /// `obstacles`, if given, has a piece of each such side.
+    std::optional<double> winding(std::span<const BorderSide> sides, std::vector<BorderSide>* obstacles = nullptr);
 
 private:
     struct Formed {
         CoefficientShape shape;
         std::array<std::vector<double>, 2> coefficients;
         std::array<double, 2> error{};
+        std::array<std::vector<double>, 2> errors;  ///< of each coefficient, once that was asked for
     };
 
-    const Formed& formed(int i, int j);
-    std::optional<double> piece(bool along_u, double from, double to, double across);
+    Formed& formed(std::size_t patch);
+    void take_equations(Formed& result);
+    std::optional<WayTurning> piece(bool along_u, double from, double to, double line, BorderSide* obstacle);
 
     const NurbsSurface& surface_;
     const BezierPatches& patches_;
@@ -55,15 +54,7 @@ private:
     PatchRange range_;
     UmbilicEquations equations_;
     std::map<std::size_t, Formed> formed_;
+    std::map<std::array<double, 4>, WayTurning> ways_;
 };
-
-/// Winding number of (A, B), twice the sum of the indices inside, along the border of a rectangle; where it reaches out
-/// of the surface's domain the outer patches are continued. None if a common zero may lie on the border or the surface
-/// is not twice continuously differentiable across a knot inside.
-std::optional<double> rectangle_winding(const NurbsSurface& surface, const BezierPatches& patches,
-                                        const InputRounding& input, const ParameterBox& rectangle);
-
-/// Winding number from an angle that adds up to whole turns; none if it does not.
-std::optional<double> whole_turns(double angle);
 
 }  // namespace umbilic
