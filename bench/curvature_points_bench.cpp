@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // All points with the Gaussian and mean curvature of three points of a 20 x 20 bicubic surface, both signs of H: six
 // queries in one pass, on one thread. Peers of the same run: the surface's own evaluation, 1000 points with second
-// derivatives, as a measure of the machine; and a dense search, Newton's method from a grid, which proves nothing.
+// derivatives, as a measure of the machine; a dense search, Newton's method from a grid, which proves nothing; and the
+// thesis's own equations in the general solver.
 #include <cmath>
 
 #include <benchmark/benchmark.h>
@@ -11,6 +12,7 @@
 #include <Eigen/LU>
 
 #include <support/surfaces.h>
+#include <umbilic/curvature_points/by_projected_polyhedron.h>
 #include <umbilic/curvature_points/curvature_gradient.h>
 #include <umbilic/curvature_points/curvature_points.h>
 #include <umbilic/differential/fundamental_forms.h>
@@ -113,6 +115,35 @@ void dense_search_rough(benchmark::State& state) {
     state.counters["converged"] = static_cast<double>(converged);
 }
 
+/// The thesis's equations, with an auxiliary unknown (0) and squared (1), by the general solver.
+void projected_polyhedron_rough(benchmark::State& state) {
+    const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+    const NurbsSurface surface = support::rough_bicubic(static_cast<int>(state.range(0)), seed);
+    const std::vector<CurvatureQuery> queries = queries_of(surface, 0.0);
+    const ProjectedPolyhedronCurvatureOptions options{.system = state.range(1) == 0 ? CurvatureSystem::auxiliary
+                                                                                    : CurvatureSystem::squared};
+    long boxes = 0;
+    std::size_t points = 0, undecided = 0;
+    for (auto _ : state) {
+        boxes = 0;
+        points = undecided = 0;
+        for (const CurvatureQuery& query : queries) {
+            const auto found = find_curvature_points_by_projected_polyhedron(surface, query, options);
+            boxes += found.boxes;
+            points += found.points.size();
+            undecided += found.undecided.size();
+        }
+    }
+    state.counters["boxes"] = static_cast<double>(boxes);
+    state.counters["points"] = static_cast<double>(points);
+    state.counters["undecided"] = static_cast<double>(undecided);
+}
+
+/// The search on the surfaces of the line above.
+void search_rough(benchmark::State& state) {
+    search(state, support::rough_bicubic(static_cast<int>(state.range(0)), seed), 0.0);
+}
+
 void evaluation(benchmark::State& state) {
     const NurbsSurface surface = support::smooth_bicubic(20, seed);
     for (auto _ : state)
@@ -126,6 +157,13 @@ BENCHMARK(smooth)->ArgName("tolerance")->Arg(0)->Arg(1)->Arg(10)->Arg(50)->Unit(
 BENCHMARK(rough)->ArgName("tolerance")->Arg(0)->Arg(1)->Arg(10)->Arg(50)->Unit(benchmark::kMillisecond);
 BENCHMARK(rational_smooth)->ArgName("tolerance")->Arg(0)->Arg(50)->Unit(benchmark::kMillisecond);
 BENCHMARK(rational_rough)->ArgName("tolerance")->Arg(0)->Arg(50)->Unit(benchmark::kMillisecond);
+BENCHMARK(search_rough)->ArgName("poles")->Arg(6)->Unit(benchmark::kMillisecond);
+BENCHMARK(projected_polyhedron_rough)
+    ->ArgNames({"poles", "squared"})
+    ->Args({6, 0})
+    ->Args({6, 1})
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(1);
 BENCHMARK(dense_search_rough)->Unit(benchmark::kMillisecond)->Iterations(1);
 
 }  // namespace
