@@ -24,6 +24,7 @@
 #include <support/surfaces.h>
 #include <umbilic/core/errors.h>
 #include <umbilic/matching/match.h>
+#include <umbilic/matching/score.h>
 
 using namespace umbilic;
 
@@ -76,14 +77,12 @@ struct Cell {
     std::vector<double> seconds, errors;
 };
 
-/// Largest distance of the suspect's samples, moved by the pose found, from where they belong / sqrt(area).
-double pose_error(const PreparedModel& original, const PreparedModel& suspect, const SimilarityTransform& truth,
-                  const SimilarityTransform& found) {
-    double greatest = 0.0;
-    for (const AreaSample& sample : suspect.features.samples)
-        greatest =
-            std::max(greatest, (truth.apply(sample.curvature.point) - found.apply(sample.curvature.point)).norm());
-    return greatest / original.model.size();
+/// Largest distance of the suspect, moved by the pose found, from the original / sqrt(area): symmetric designs have
+/// several right poses.
+double pose_error(const PreparedModel& original, const PreparedModel& suspect, const SimilarityTransform& found) {
+    const Ground ground(original);
+    const std::vector<double> distances = sample_distances(ground, suspect, found, original.model.size());
+    return *std::max_element(distances.begin(), distances.end()) / original.model.size();
 }
 
 }  // namespace
@@ -138,8 +137,9 @@ int main(int count, char** words) {
                             Cell& cell = cells[m];
                             cell.seconds.push_back(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
                             ++cell.cases;
-                            const double error = pose_error(original, suspect, truth, alignment.original_suspect);
-                            const bool success = alignment.found() && error < 0.01;
+                            const double error = pose_error(original, suspect, alignment.original_suspect);
+                            const double scale = alignment.original_suspect.scale / truth.scale;
+                            const bool success = alignment.found() && error < 0.01 && std::abs(scale - 1) < 0.02;
                             cell.success += success;
                             cell.wrong += alignment.found() && !success;
                             if (success) cell.errors.push_back(error);

@@ -24,6 +24,8 @@ constexpr int newton_steps = 12;
 /// A box that meets the region within the tolerances counts as part of it if K and H vary by less than this over it, in
 /// units of the tolerances: so it reaches out of the region by as much at most.
 constexpr double widest_range = 3.0;
+/// Part of the tolerances that a change of the arrays may use up.
+constexpr double small_blur = 0.05;
 /// Roundings in the constants and weights of a linearisation, in units of roundoff of its largest term.
 constexpr double linearisation_units = 32 * unit_roundoff;
 
@@ -192,6 +194,16 @@ bool CurvatureBox::within(const CurvatureLevel& level) const {
     if (hull_[0].magnitude() + k_rest <= k_room && hull_[1].magnitude() + h_rest <= h_room) return true;
     return hull_[0].high - hull_[0].low + 2 * k_rest <= widest_range * k_room &&
            hull_[1].high - hull_[1].low + 2 * h_rest <= widest_range * h_room;
+}
+
+bool CurvatureBox::tolerates(const CurvatureLevel& level, const std::array<double, most_arrays>& errors) const {
+    const double room[2] = {level.gaussian_tolerance * g_.low, 2 * level.mean_tolerance * h_.low};
+    for (int k = 0; k < 2; ++k) {
+        double blur = 0.0;
+        for (int a = 0; a < arrays_; ++a) blur += std::abs(weight_[k][a]) * errors[a];
+        if (!(blur <= small_blur * room[k])) return false;
+    }
+    return true;
 }
 
 double CurvatureBox::misfit(const CurvatureLevel& level) const {

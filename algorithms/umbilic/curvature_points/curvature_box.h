@@ -42,6 +42,8 @@ public:
     bool vanishes() const;
     /// After linearise(): the box lies wholly within the tolerances, or the ranges of K and H are below twice them.
     bool within(const CurvatureLevel& level) const;
+    /// After linearise(): further errors of the arrays would blur K and H by a small part of the tolerances only.
+    bool tolerates(const CurvatureLevel& level, const std::array<double, most_arrays>& errors) const;
     /// After linearise(): see LevelBox::misfit.
     double misfit(const CurvatureLevel& level) const;
 

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include <umbilic/bernstein/degree_reduction.h>
 #include <umbilic/bernstein/subdivision.h>
 #include <umbilic/core/progress.h>
 #include <umbilic/core/types.h>
@@ -23,8 +25,7 @@ struct LevelPoint {
 };
 
 /// A box that was neither excluded nor proved (tolerances 0), or that holds a part of the region within the tolerances:
-/// all of that region lies in such boxes, and K and H differ from the level by at most three times the tolerances
-/// there.
+/// all of that region lies in such boxes.
 struct LevelBox {
     int level = 0;
     ParameterBox box;
@@ -65,6 +66,7 @@ public:
 
 private:
     struct Node {
+        int depth = 0;
         ParameterBox box;
         std::array<double, CurvatureBox::most_arrays> errors{};
         std::size_t first_live = 0;
@@ -72,21 +74,35 @@ private:
     };
     enum class Outcome { empty, point, member, split };
 
+    /// Searches from the nodes there are, with at most `budget` boxes; returns how many were visited.
+    long run(std::span<const CurvatureLevel> levels, const LevelLimits& limits, long budget, const Progress& progress,
+             LevelSets& result);
+    /// Hands the arrays of a box, of lower degree, to lower_; false if that is not worth while.
+    bool reduce(const Node& node, const double* coefficients);
     Outcome examine(const Node& node, const CurvatureLevel& level, int number, LevelSets& result);
     Outcome examine_region(const Node& node, const CurvatureLevel& level, int number, LevelSets& result);
     Outcome isolate(const Node& node, const CurvatureLevel& level, int number, const Matrix2& preconditioner,
                     double contraction, LevelSets& result);
+    /// Takes the part [low, high] of the box of the last node, which may reach out of it, as other_box_.
+    void take_other(const Node& node, const Vector2& low, const Vector2& high);
+    /// Whether K and H are within the tolerances on a part of the box, or vary little; none if the part holds nothing.
+    std::optional<bool> restricted_within(const CurvatureLevel& level, const Node& node, const Vector2& low,
+                                          const Vector2& high);
     void leave(const Node& node, int number, LevelSets& result) const;
 
     CoefficientShape shape_;
     int arrays_ = 0;
     bool rational_ = false;
-    std::vector<double> root_, slots_, enlarged_;
+    std::vector<double> root_, slots_, other_;
     std::array<double, CurvatureBox::most_arrays> root_errors_{};
+    /// Searches small boxes, for levels with tolerances, with polynomials of lower degree.
+    std::unique_ptr<CurvatureLevelSearch> lower_;
+    std::optional<DegreeReduction> reduction_;
+    std::array<double, CurvatureBox::most_arrays> reduction_errors_{};
     std::vector<Node> nodes_;
     std::vector<int> live_;
     std::vector<long> fine_;
-    CurvatureBox box_, enlarged_box_;
+    CurvatureBox box_, other_box_;
 };
 
 }  // namespace umbilic
