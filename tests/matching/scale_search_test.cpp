@@ -2,6 +2,7 @@
 #include <umbilic/matching/scale_search.h>
 
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -40,12 +41,12 @@ TEST(ScaleSearch, BrentNeedsFewerSteps) {
 
 TEST(ScaleSearch, ScanFindsTheLowestOfSeveralMinima) {
     // Minima near every whole number, lowest near 2.
-    const auto f = [](double x) { return std::abs(x - 2.1) - 0.5 * std::cos(2 * M_PI * x); };
+    const auto f = [](double x) { return std::abs(x - 2.1) - 0.5 * std::cos(2 * std::numbers::pi * x); };
     const auto minima =
         scanned_minima(f, -1.0, 5.0, 61, 3, [&](double a, double b) { return golden_section_minimum(f, a, b, 1e-9); });
     ASSERT_EQ(minima.size(), 3u);
     // Near 2 the slope of the cosine outweighs the modulus: pi sin(2 pi x) = 1.
-    EXPECT_NEAR(minima[0].at, 2.0 + std::asin(1 / M_PI) / (2 * M_PI), 1e-7);
+    EXPECT_NEAR(minima[0].at, 2.0 + std::asin(1 / std::numbers::pi) / (2 * std::numbers::pi), 1e-7);
     EXPECT_LT(minima[0].value, minima[1].value);
     EXPECT_LT(minima[1].value, minima[2].value);
 }
