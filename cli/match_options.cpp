@@ -44,11 +44,12 @@ void add_match_options(CLI::App& subcommand, MatchWords& words) {
     const char* const group = "Pose";
     subcommand
         .add_option("--method", words.match.method,
-                    "How poses are proposed: auto, umbilics, moments, curvature or points")
+                    "How poses are proposed: auto, umbilics, moments, curvature, kh or points")
         ->transform(CLI::CheckedTransformer(std::map<std::string, MethodChoice>{{"auto", MethodChoice::automatic},
                                                                                 {"umbilics", MethodChoice::umbilics},
                                                                                 {"moments", MethodChoice::moments},
                                                                                 {"curvature", MethodChoice::curvature},
+                                                                                {"kh", MethodChoice::kh},
                                                                                 {"points", MethodChoice::points}})
                         .description(""))
         ->type_name("METHOD")
@@ -58,6 +59,14 @@ void add_match_options(CLI::App& subcommand, MatchWords& words) {
             "--scale", [&words](const std::string& text) { words.match.scale = scale_from(text); },
             "What is known of the scale, suspect to original: auto, fixed (it is 1) or LOW:HIGH")
         ->type_name("SCALE")
+        ->group(group);
+    subcommand
+        .add_option("--scale-search", words.match.scale_search,
+                    "How the method kh searches a scale that is not fixed: golden (section) or brent")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, ScaleSearch>{{"golden", ScaleSearch::golden_section},
+                                                                               {"brent", ScaleSearch::brent}})
+                        .description(""))
+        ->type_name("SEARCH")
         ->group(group);
     subcommand.add_option("--mirror", words.match.mirror, "Whether mirror images are tried: auto or never")
         ->transform(CLI::CheckedTransformer(std::map<std::string, MirrorChoice>{{"auto", MirrorChoice::automatic},

@@ -23,10 +23,16 @@ std::string word(MethodChoice choice) {
             return "moments";
         case MethodChoice::curvature:
             return "curvature";
+        case MethodChoice::kh:
+            return "kh";
         case MethodChoice::points:
             return "points";
     }
     return "auto";
+}
+
+std::string word(ScaleSearch choice) {
+    return choice == ScaleSearch::brent ? "brent" : "golden";
 }
 
 std::string word(MirrorChoice choice) {
@@ -69,6 +75,9 @@ std::vector<Parameter> match_parameters(const FeatureOptions& features, const Ma
     parameters.push_back(constant("method", word(options.method), word(defaults.method), "", "how poses are proposed"));
     parameters.push_back(
         constant("scale", word(options.scale), word(defaults.scale), "", "what is known of the scale"));
+    if (options.method == MethodChoice::kh)
+        parameters.push_back(constant("scale_search", word(options.scale_search), word(defaults.scale_search), "",
+                                      "how the method kh searches a scale that is not fixed"));
     parameters.push_back(
         constant("mirror", word(options.mirror), word(defaults.mirror), "", "whether mirror images are tried"));
     parameters.push_back(

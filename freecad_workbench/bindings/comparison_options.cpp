@@ -110,9 +110,13 @@ CompareOptions comparison_options(const py::dict& keywords) {
                                                             {"umbilics", MethodChoice::umbilics},
                                                             {"moments", MethodChoice::moments},
                                                             {"curvature", MethodChoice::curvature},
+                                                            {"kh", MethodChoice::kh},
                                                             {"points", MethodChoice::points}});
         } else if (name == "scale") {
             options.match.scale = scale_of(name, value);
+        } else if (name == "scale_search") {
+            options.match.scale_search = choice_of<ScaleSearch>(
+                name, value, {{"golden", ScaleSearch::golden_section}, {"brent", ScaleSearch::brent}});
         } else if (name == "mirror") {
             options.match.mirror = choice_of<MirrorChoice>(
                 name, value, {{"auto", MirrorChoice::automatic}, {"never", MirrorChoice::never}});

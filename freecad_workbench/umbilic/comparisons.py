@@ -246,8 +246,9 @@ def compare(
 
     `seconds` limits the reading of each model. Options, all optional, named as on the command line:
 
-    method            "auto", "umbilics", "moments" or "curvature"
+    method            "auto", "umbilics", "moments", "curvature" or "kh"
     scale             "auto", "fixed" (it is 1) or (low, high)
+    scale_search      "golden" (section) or "brent": how "kh" searches a scale that is not fixed
     mirror            "auto" or "never"
     scope             "auto", "global" or "partial"
     initial           dict with scale, rotation, translation, mirrored: a pose to start from

@@ -89,6 +89,31 @@ TEST(TensorPolynomial, ProductsStayWithinTheirBound) {
     }
 }
 
+TEST(TensorPolynomial, UnequalProductsAreRaisedAndZerosHaveNoDegree) {
+    std::mt19937 engine(7);
+    TensorPolynomial nothing;
+    nothing.set_zero(30, 30);
+    for (int k = 0; k < 20; ++k) {
+        const TensorPolynomial a = random_polynomial(4, 6, engine), b = random_polynomial(3, 2, engine);
+        const TensorPolynomial c = random_polynomial(2, 2, engine), d = random_polynomial(3, 3, engine);
+        const std::array<ProductTerm, 3> terms = {{{&a, &b, 1.0}, {&c, &d, -1.0}, {&c, &nothing, 1.0}}};
+        TensorPolynomial result;
+        sum_of_unequal_products(terms, result);
+        // (u + (1 - u))^2 (v + (1 - v))^3 has binomials as its scaled coefficients.
+        ExactPolynomial one = zero(2, 3), low = zero(5, 5), exact = zero(7, 8);
+        for (int i = 0; i <= 2; ++i)
+            for (int j = 0; j <= 3; ++j) one.scaled[i * 4 + j] = binomial(2, i) * binomial(3, j);
+        add_product(ExactPolynomial::of(a), ExactPolynomial::of(b), 1, exact);
+        add_product(ExactPolynomial::of(c), ExactPolynomial::of(d), -1, low);
+        add_product(low, one, 1, exact);
+        expect_within_bound(result, exact);
+    }
+    const ProductTerm zero_terms[] = {{&nothing, &nothing}};
+    TensorPolynomial result;
+    sum_of_unequal_products(zero_terms, result);
+    EXPECT_EQ(result.magnitude, 0.0);
+}
+
 TEST(TensorPolynomial, BoundsOfFactorsEnterTheProduct) {
     std::mt19937 engine(2);
     std::uniform_real_distribution<double> number(-1.0, 1.0);

@@ -2,28 +2,18 @@
 #include <umbilic/bernstein/subdivision.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include <umbilic/bernstein/binomials.h>
 #include <umbilic/bernstein/rounding.h>
 
 namespace umbilic {
 
 namespace {
 
-/// One row: sums without the halves, which are exact and are applied once at the end by the caller's `power`.
-inline void halve_row(int n, double* row, double* first) {
-    double power = 1.0;
-    for (int step = 0; step <= n; ++step) {
-        first[step] = row[0] * power;
-        for (int j = 0; j < n - step; ++j) row[j] += row[j + 1];
-        power *= 0.5;
-    }
-    power = 1.0;
-    for (int j = n; j >= 0; --j) {
-        row[j] *= power;
-        power *= 0.5;
-    }
-}
+/// Rows that are halved together, side by side.
+constexpr int lanes = 8;
 
 /// Keeps [0, t] of every column of length p + 1 (rows of `length`), `from_high` keeps [t, 1] instead.
 void keep_part(int p, int length, double* c, double t, bool from_high) {
@@ -74,8 +64,29 @@ void halve_u(CoefficientShape shape, double* c, double* first) {
 }
 
 void halve_v(CoefficientShape shape, double* c, double* first) {
-    const int length = shape.row_length();
-    for (int i = 0; i <= shape.p; ++i) halve_row(shape.q, c + i * length, first + i * length);
+    const int q = shape.q, length = shape.row_length();
+    // As halve_u, on some rows at a time that are transposed, so that the inner loop runs over them.
+    std::array<double, (maximum_product_degree + 1) * lanes> columns;
+    for (int begin = 0; begin <= shape.p; begin += lanes) {
+        const int count = std::min(lanes, shape.p + 1 - begin);
+        double* rows = c + begin * length;
+        double* first_rows = first + begin * length;
+        if (count < lanes) std::fill(columns.begin(), columns.begin() + length * lanes, 0.0);
+        for (int k = 0; k < count; ++k)
+            for (int j = 0; j < length; ++j) columns[j * lanes + k] = rows[k * length + j];
+        double power = 1.0;
+        for (int step = 0; step <= q; ++step) {
+            for (int k = 0; k < count; ++k) first_rows[k * length + step] = columns[k] * power;
+            const int end = (q - step) * lanes;
+            for (int at = 0; at < end; ++at) columns[at] += columns[at + lanes];
+            power *= 0.5;
+        }
+        power = 1.0;
+        for (int j = q; j >= 0; --j) {
+            for (int k = 0; k < count; ++k) rows[k * length + j] = columns[j * lanes + k] * power;
+            power *= 0.5;
+        }
+    }
 }
 
 double restrict_u(CoefficientShape shape, double* c, double low, double high) {

@@ -89,6 +89,10 @@ void drop_edge(std::vector<double>& c, int u_degree, int length, PatchEdge edge)
     c.resize(static_cast<std::size_t>(u_degree + 1) * (length - 1));
 }
 
+bool exactly_zero(const TensorPolynomial& polynomial) {
+    return polynomial.magnitude == 0.0 && polynomial.bound.input == 0.0;
+}
+
 int term_count(const TensorPolynomial& a, const TensorPolynomial& b) {
     return (std::min(a.u_degree, b.u_degree) + 1) * (std::min(a.v_degree, b.v_degree) + 1);
 }
@@ -187,6 +191,37 @@ void sum_of_products(std::span<const ProductTerm> terms, TensorPolynomial& resul
     for (double& error : result.errors) error *= bound_slack;
 }
 
+void sum_of_unequal_products(std::span<const ProductTerm> terms, TensorPolynomial& result) {
+    assert(!terms.empty());
+    std::vector<ProductTerm> present;
+    int m = 0, n = 0;
+    bool equal = true;
+    for (const ProductTerm& term : terms) {
+        if (exactly_zero(*term.left) || exactly_zero(*term.right)) continue;
+        const int u_degree = term.left->u_degree + term.right->u_degree;
+        const int v_degree = term.left->v_degree + term.right->v_degree;
+        equal = equal && (present.empty() || (u_degree == m && v_degree == n));
+        m = std::max(m, u_degree);
+        n = std::max(n, v_degree);
+        present.push_back(term);
+    }
+    const ProductTerm& first = terms[0];
+    if (present.empty())
+        return result.set_zero(first.left->u_degree + first.right->u_degree,
+                               first.left->v_degree + first.right->v_degree);
+    std::vector<TensorPolynomial> raised;
+    if (!equal) {
+        raised.reserve(present.size());
+        for (ProductTerm& term : present) {
+            raised.push_back(*term.right);
+            elevate(raised.back(), m - term.left->u_degree - term.right->u_degree,
+                    n - term.left->v_degree - term.right->v_degree);
+            term.right = &raised.back();
+        }
+    }
+    sum_of_products(present, result);
+}
+
 void elevate(TensorPolynomial& polynomial, int u_raise, int v_raise) {
     assert(u_raise >= 0 && v_raise >= 0);
     const int u_degree = polynomial.u_degree, length = polynomial.row_length();
@@ -203,6 +238,16 @@ void elevate(TensorPolynomial& polynomial, int u_raise, int v_raise) {
     polynomial.bound.rounding = (polynomial.bound.rounding + arithmetic) * bound_slack;
     polynomial.bound.input = (polynomial.bound.input + arithmetic) * bound_slack;
     polynomial.magnitude = (polynomial.magnitude + arithmetic) * bound_slack;
+}
+
+void raise_to_common_degree(std::span<TensorPolynomial* const> polynomials) {
+    int m = 0, n = 0;
+    for (const TensorPolynomial* polynomial : polynomials) {
+        m = std::max(m, polynomial->u_degree);
+        n = std::max(n, polynomial->v_degree);
+    }
+    for (TensorPolynomial* polynomial : polynomials)
+        elevate(*polynomial, m - polynomial->u_degree, n - polynomial->v_degree);
 }
 
 void add(const TensorPolynomial& left, const TensorPolynomial& right, TensorPolynomial& result) {

@@ -56,8 +56,16 @@ struct ProductTerm {
 /// 0). `result` must not be one of the factors.
 void sum_of_products(std::span<const ProductTerm> terms, TensorPolynomial& result);
 
+/// Sum of products of any bidegrees, of the smallest bidegree that holds all of them: factors are raised where needed.
+/// A factor that is exactly zero, as a second derivative across a linear direction, has no degree. `result` must not be
+/// one of the factors.
+void sum_of_unequal_products(std::span<const ProductTerm> terms, TensorPolynomial& result);
+
 /// The same polynomial with its degrees raised.
 void elevate(TensorPolynomial& polynomial, int u_raise, int v_raise);
+
+/// Raises all to the smallest bidegree that holds each of them.
+void raise_to_common_degree(std::span<TensorPolynomial* const> polynomials);
 
 /// left + right, of the same bidegree; without `errors`.
 void add(const TensorPolynomial& left, const TensorPolynomial& right, TensorPolynomial& result);

@@ -29,6 +29,8 @@ const char* name(MatchMethod method) {
             return "moments";
         case MatchMethod::curvature:
             return "curvature";
+        case MatchMethod::kh:
+            return "kh";
         case MatchMethod::points:
             return "points";
     }

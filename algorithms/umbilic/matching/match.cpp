@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <umbilic/core/errors.h>
+#include <umbilic/matching/by_curvature_points.h>
 #include <umbilic/matching/by_moments.h>
 #include <umbilic/matching/by_principal_frame.h>
 #include <umbilic/matching/by_umbilics.h>
@@ -23,8 +24,9 @@ namespace {
 constexpr int refined_poses = 16, refined_moments = 48;
 /// How far the hypotheses of a method may be off, as a part of the suspect's length: one umbilic of a re-approximated
 /// copy turns by a few degrees, sampled rotations are up to 15 degrees off, given pairs and poses may be rough, a
-/// principal frame comes from the nearest sample.
-constexpr double umbilics_error = 0.08, moments_error = 0.25, given_error = 0.25, curvature_error = 0.15;
+/// principal frame comes from the nearest sample, votes of the method kh agree within 0.05.
+constexpr double umbilics_error = 0.08, moments_error = 0.25, given_error = 0.25, curvature_error = 0.15,
+                 kh_error = 0.1;
 /// Seeds looked up without the third order; on exact and re-approximated surfaces nearly every single seed succeeds.
 constexpr int second_order_seeds = 6;
 
@@ -65,6 +67,20 @@ Proposals poses_by_principal_frame(const PreparedModel& original, const Prepared
         result.poses.push_back(
             {swapped ? pose.original_suspect.inverse() : pose.original_suspect, MatchMethod::curvature});
     if (result.poses.empty()) result.why += " proposed no pose";
+    return result;
+}
+
+/// Poses from points of equal Gaussian and mean curvature, seeds on the suspect or (`swapped`) on the original, for a
+/// suspect of which only a part comes from the original.
+Proposals kh_poses(const PreparedModel& original, const PreparedModel& suspect, const MatchOptions& options,
+                   bool swapped, const Progress& progress) {
+    const CurvaturePointMatching matching{.scale = swapped ? options.scale.inverse() : options.scale,
+                                          .scale_search = options.scale_search,
+                                          .mirror = options.mirror};
+    if (!swapped) return poses_by_curvature_points(original, suspect, matching, progress);
+    Proposals result = poses_by_curvature_points(suspect, original, matching, progress);
+    for (PoseHypothesis& pose : result.poses) pose.original_suspect = pose.original_suspect.inverse();
+    result.why += " (the two models exchanged)";
     return result;
 }
 
@@ -120,6 +136,14 @@ Alignment match(const PreparedModel& original, const PreparedModel& suspect, con
                 consider(
                     poses_by_principal_frame(original, suspect, options, third_order, swapped, part.part(0.0, 0.5)),
                     refined_poses, curvature_error, part.part(0.5, 1.0));
+        }
+    }
+    if (options.method == MethodChoice::kh) {
+        for (const bool swapped : {false, true}) {
+            if (settled(search)) break;
+            const Progress part = swapped ? progress.part(0.75, 0.9) : progress.part(0.6, 0.75);
+            consider(kh_poses(original, suspect, options, swapped, part.part(0.0, 0.8)), refined_poses, kh_error,
+                     part.part(0.8, 1.0));
         }
     }
     progress.report(0.9, "comparing poses");

@@ -15,6 +15,8 @@ namespace umbilic {
 struct MatchOptions {
     MethodChoice method = MethodChoice::automatic;
     ScaleChoice scale;
+    /// Of the method kh, where the scale is not fixed.
+    ScaleSearch scale_search = ScaleSearch::golden_section;
     MirrorChoice mirror = MirrorChoice::automatic;
     ScopeChoice scope = ScopeChoice::automatic;
     /// Pose to start from (--initial): it is refined and takes part as a hypothesis.

@@ -24,31 +24,16 @@ void sum(std::initializer_list<ProductTerm> terms, TensorPolynomial& result) {
     sum_of_products({terms.begin(), terms.size()}, result);
 }
 
-bool vanishes(const TensorPolynomial& polynomial) {
-    return polynomial.magnitude == 0.0 && polynomial.bound.input == 0.0;
-}
-
-/// result = a b - c d, of the smallest bidegree that holds both products. A factor that is exactly zero (a second
-/// derivative across a linear direction) has no degree.
+/// result = a b - c d, of the smallest bidegree that holds both products.
 void difference_of_products(const TensorPolynomial& a, const TensorPolynomial& b, const TensorPolynomial& c,
                             const TensorPolynomial& d, TensorPolynomial& result) {
-    const bool first = !vanishes(a) && !vanishes(b), second = !vanishes(c) && !vanishes(d);
-    if (!first && !second) return result.set_zero(a.u_degree + b.u_degree, a.v_degree + b.v_degree);
-    if (!second) return sum({{&a, &b}}, result);
-    if (!first) return sum({{&c, &d, -1.0}}, result);
-    const int u_gap = a.u_degree + b.u_degree - c.u_degree - d.u_degree;
-    const int v_gap = a.v_degree + b.v_degree - c.v_degree - d.v_degree;
-    if (u_gap == 0 && v_gap == 0) return sum({{&a, &b}, {&c, &d, -1.0}}, result);
-    TensorPolynomial raised_b = b, raised_d = d;
-    elevate(raised_b, std::max(0, -u_gap), std::max(0, -v_gap));
-    elevate(raised_d, std::max(0, u_gap), std::max(0, v_gap));
-    sum({{&a, &raised_b}, {&c, &raised_d, -1.0}}, result);
+    const ProductTerm terms[] = {{&a, &b}, {&c, &d, -1.0}};
+    sum_of_unequal_products(terms, result);
 }
 
 void raise_to_common_degree(TensorPolynomial& a, TensorPolynomial& b) {
-    const int p = std::max(a.u_degree, b.u_degree), q = std::max(a.v_degree, b.v_degree);
-    elevate(a, p - a.u_degree, q - a.v_degree);
-    elevate(b, p - b.u_degree, q - b.v_degree);
+    TensorPolynomial* const both[] = {&a, &b};
+    umbilic::raise_to_common_degree(both);
 }
 
 /// Univariate polynomial on an edge, as a tensor polynomial of degree 0 across it.

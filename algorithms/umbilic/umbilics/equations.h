@@ -26,6 +26,19 @@ struct EdgeEquations {
     double a_error = 0.0, b_error = 0.0;  ///< bounds on the coefficients' errors
 };
 
+/// Curvatures of a patch as polynomials (thesis 4.6.2 and Appendix B, without its auxiliary variable), all of one
+/// bidegree:
+///   integral  K = q / t^2,        H = -s / (2 t^(3/2)),  t = |r_u x r_v|^2, w absent;
+///   rational  K = q w^4 / t^2,    H = -s w / (2 t^(3/2)).
+/// Coordinates and weights are scaled as EquationScale says.
+struct CurvatureEquations {
+    bool rational = false;
+    TensorPolynomial q, s, t, w;
+    /// Nothing but exact zeros was dropped where r_u or r_v vanishes along an edge (q, s and t are divided there by the
+    /// fourth, third and second power of the distance from it).
+    bool exact = true;
+};
+
 /// Polynomials whose common zeros are the umbilics of a Bezier patch:
 ///   A = E m - F l,  B = E n - G l,  C = F n - G m,
 /// with E, F, G and l, m, n the fundamental forms up to common positive factors, without the normalisation of the
@@ -45,6 +58,9 @@ public:
     bool excluded_by_hulls() const;
     /// Forms A and B and raises both to one bidegree. Needs form_fundamental.
     void form_umbilic();
+
+    /// Forms K and H. Needs form_fundamental; `result` keeps its memory.
+    void form_curvature(CurvatureEquations& result);
 
     /// P_N = B^2 - 4 A C, which is zero at umbilics and positive elsewhere (thesis (2.24), (2.25), (3.44)). Degrees
     /// (10p - 6, 10q - 6), rational (16p - 10, 16q - 10): below the thesis's. Needs form_fundamental only. Throws
@@ -85,6 +101,8 @@ private:
     void load(const BezierPatch& patch, const InputRounding& input);
     void form_loaded();
     void find_singular_edges();
+    /// |N|^2, rational |N3|^2 with N3 = w P_u x P_v + w_v P x P_u - w_u P x P_v.
+    void form_normal_square(TensorPolynomial& result);
     void form_integral();
     void form_rational();
     /// Component k of the differences of order (u_order, v_order) of the control net, times `factor`, starting at pole

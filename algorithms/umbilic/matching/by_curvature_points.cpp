@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <umbilic/matching/by_curvature_points.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <optional>
+#include <string>
+
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <umbilic/core/errors.h>
+#include <umbilic/curvature_points/curvature_gradient.h>
+#include <umbilic/curvature_points/curvature_points.h>
+#include <umbilic/curvature_points/dependence.h>
+#include <umbilic/differential/fundamental_forms.h>
+#include <umbilic/matching/horn.h>
+#include <umbilic/matching/pose_distance.h>
+#include <umbilic/matching/scale_search.h>
+#include <umbilic/matching/score.h>
+#include <umbilic/matching/table_ground.h>
+
+namespace umbilic {
+
+namespace {
+
+/// Samples among which seeds are chosen.
+constexpr std::size_t seed_pool = 1200;
+/// Seeds need a principal frame: (kappa_max - kappa_min) / rho at least this.
+constexpr double least_anisotropy = 0.2;
+/// K and H alike: within this part of rho^2 and rho.
+constexpr double alike = 0.1;
+/// Commonness below this makes a seed no better: it has few solutions already.
+constexpr double rare = 0.01;
+/// A seed counts less where the surface is flatter than this, relative to one over the length.
+constexpr double curved = 2.0;
+/// A voter must come to lie this near to one of its solutions, relative to the moved suspect's length, and its normal
+/// within 26 degrees.
+constexpr double vote_distance = 0.05, vote_cosine = 0.9;
+/// With fewer voters than this the curvatures are looked for within tolerances too, parts of rho^2 and rho: those of a
+/// re-approximated copy differ.
+constexpr int enough_votes = 2;
+constexpr double loose = 0.03;
+/// Hypotheses handed on, and looked at for the objective of one scale.
+constexpr std::size_t most_proposals = 200, most_scored = 6;
+/// The objective: samples, and the distance at which one stops to count, relative to the moved suspect's length.
+constexpr int objective_samples = 64;
+constexpr double objective_tolerance = 0.05;
+/// Scales at which the suspect may be a part of the original, by the ratio of their lengths; step of the scan (seeds
+/// find each other within some 5 %), minima searched further, and the relative accuracy they are searched to:
+/// refinement does the rest.
+constexpr double smallest_part = 0.04, largest_part = 1.3;
+constexpr double scan_step = 1.08;
+constexpr int most_minima = 3;
+constexpr double scale_accuracy = 2e-3;
+
+double rho(const Curvature& c) {
+    return std::hypot(c.kappa_max, c.kappa_min);
+}
+
+Matrix3 frame_of(const Curvature& c) {
+    Matrix3 result;
+    result << c.direction_max, c.direction_min, c.normal;
+    return result;
+}
+
+struct Hypothesis {
+    SimilarityTransform pose;
+    int votes = 0;
+    double spread = 0.0;  ///< mean distance of the voters from their solutions, in units of the vote's limit
+    bool flip = false;
+    int seed = 0;
+    int solution = 0;
+};
+
+bool better(const Hypothesis& a, const Hypothesis& b) {
+    return a.votes != b.votes ? a.votes > b.votes : a.spread < b.spread;
+}
+
+/// Solutions of each seed on the original: as the seed is, and as it is seen from behind.
+using Solutions = std::vector<std::array<std::vector<Curvature>, 2>>;
+
+class CurvaturePointSearch {
+public:
+    CurvaturePointSearch(const PreparedModel& original, const PreparedModel& suspect,
+                         const CurvaturePointMatching& options)
+        : original_(original),
+          suspect_(suspect),
+          options_(options),
+          oriented_(original.model.oriented() && suspect.model.oriented()),
+          length_(shape_size(suspect.features).length),
+          distance_(suspect.features),
+          seeds_(choose_curvature_seeds(suspect, options.seeds)),
+          samples_(spread_samples(suspect.features.samples, objective_samples)) {
+        for (std::size_t k = 0; k < original.model.faces.size(); ++k)
+            if (!curvature_dependence(original.model.faces[k])) faces_.push_back(k);
+    }
+
+    const std::vector<CurvatureSeed>& seeds() const { return seeds_; }
+    std::size_t faces() const { return faces_.size(); }
+    double length() const { return length_; }
+
+    /// Poses at one scale, most votes first, different ones only.
+    std::vector<Hypothesis> poses(double scale, double tolerance, std::size_t most, const Progress& progress) const;
+    /// One minus the best soft share of the suspect under those poses: 0 if all of it lies on the original.
+    double objective(double scale, const Progress& progress) const;
+
+private:
+    Solutions solve(double scale, double tolerance, const Progress& progress) const;
+    std::vector<std::pair<int, const Curvature*>> voters(const Hypothesis& hypothesis,
+                                                         const Solutions& solutions) const;
+    void vote(const Solutions& solutions, Hypothesis& hypothesis) const;
+    void improve(const Solutions& solutions, Hypothesis& hypothesis) const;
+    Curvature seen(int seed, bool flip) const {
+        return flip ? flipped(seeds_[seed].curvature) : seeds_[seed].curvature;
+    }
+
+    const PreparedModel& original_;
+    const PreparedModel& suspect_;
+    CurvaturePointMatching options_;
+    bool oriented_;
+    double length_;
+    PoseDistance distance_;
+    std::vector<CurvatureSeed> seeds_;
+    std::vector<int> samples_;
+    std::vector<std::size_t> faces_;
+};
+
+Solutions CurvaturePointSearch::solve(double scale, double tolerance, const Progress& progress) const {
+    std::vector<CurvatureQuery> queries;
+    for (const CurvatureSeed& seed : seeds_) {
+        const double size = rho(seed.curvature) / scale;
+        queries.push_back({seed.curvature.gaussian() / (scale * scale), seed.curvature.mean() / scale,
+                           tolerance * size * size, tolerance * size});
+    }
+    CurvaturePointOptions options;
+    options.both_signs = !oriented_;
+    options.recognition = 0.0;  // faces_ holds the others
+    std::vector<CurvaturePoints> found(faces_.size());
+    tbb::parallel_for(std::size_t{0}, faces_.size(), [&](std::size_t k) {
+        progress.check();
+        found[k] = find_curvature_points(original_.model.faces[faces_[k]], queries, options, progress.part(0.0, 0.0));
+    });
+    Solutions result(seeds_.size());
+    for (const CurvaturePoints& face : found)
+        for (const CurvaturePoint& point : face.points)
+            if (point.containment != Containment::outside && point.curvature.regular)
+                result[point.query][point.opposite].push_back(point.curvature);
+    return result;
+}
+
+std::vector<std::pair<int, const Curvature*>> CurvaturePointSearch::voters(const Hypothesis& hypothesis,
+                                                                           const Solutions& solutions) const {
+    std::vector<std::pair<int, const Curvature*>> result;
+    const SimilarityTransform& pose = hypothesis.pose;
+    const double limit = vote_distance * length_ * pose.scale;
+    const Vector3& anchor = solutions[hypothesis.seed][hypothesis.flip][hypothesis.solution].point;
+    const Vector3& own = seeds_[hypothesis.seed].curvature.point;
+    for (int j = 0; j < static_cast<int>(seeds_.size()); ++j) {
+        if (j == hypothesis.seed) continue;
+        const Curvature seed = seen(j, hypothesis.flip);
+        const Vector3 place = pose.apply(seed.point), normal = pose.apply_direction(seed.normal);
+        const double apart = pose.scale * (seed.point - own).norm();
+        const Curvature* nearest = nullptr;
+        double least = limit;
+        for (const Curvature& solution : solutions[j][hypothesis.flip]) {
+            if (std::abs((solution.point - anchor).norm() - apart) > limit) continue;
+            const double distance = (solution.point - place).norm();
+            if (distance > least || solution.normal.dot(normal) < vote_cosine) continue;
+            nearest = &solution;
+            least = distance;
+        }
+        if (nearest) result.emplace_back(j, nearest);
+    }
+    return result;
+}
+
+void CurvaturePointSearch::vote(const Solutions& solutions, Hypothesis& hypothesis) const {
+    const auto found = voters(hypothesis, solutions);
+    const double limit = vote_distance * length_ * hypothesis.pose.scale;
+    hypothesis.votes = static_cast<int>(found.size());
+    hypothesis.spread = 0.0;
+    for (const auto& [j, solution] : found)
+        hypothesis.spread += (hypothesis.pose.apply(seeds_[j].curvature.point) - solution->point).norm() /
+                             (limit * static_cast<double>(found.size()));
+}
+
+/// Least squares over all voters at the same scale; each stands for its point and the tip of its normal.
+void CurvaturePointSearch::improve(const Solutions& solutions, Hypothesis& hypothesis) const {
+    if (hypothesis.votes < 1) return;
+    auto all = voters(hypothesis, solutions);
+    all.emplace_back(hypothesis.seed, &solutions[hypothesis.seed][hypothesis.flip][hypothesis.solution]);
+    const double scale = hypothesis.pose.scale, tip = 0.5 * length_;
+    std::vector<PointPair> pairs;
+    for (const auto& [j, solution] : all) {
+        const Curvature seed = seen(j, hypothesis.flip);
+        pairs.push_back({solution->point, scale * seed.point});
+        pairs.push_back({solution->point + scale * tip * solution->normal, scale * (seed.point + tip * seed.normal)});
+    }
+    try {
+        Hypothesis improved = hypothesis;
+        improved.pose = fit_points(pairs, {.free_scale = false, .mirrored = hypothesis.pose.mirrored}).original_suspect;
+        improved.pose.scale = scale;
+        vote(solutions, improved);
+        if (better(improved, hypothesis)) hypothesis = improved;
+    } catch (const InvalidInput&) {
+        // Points one above the other along their normals lie on a line: the pose from the single pair stands.
+    }
+}
+
+std::vector<Hypothesis> CurvaturePointSearch::poses(double scale, double tolerance, std::size_t most,
+                                                    const Progress& progress) const {
+    const Solutions solutions = solve(scale, tolerance, progress);
+    std::vector<Hypothesis> all;
+    for (int i = 0; i < static_cast<int>(seeds_.size()); ++i)
+        for (const bool flip : {false, true}) {
+            const Curvature seed = seen(i, flip);
+            const std::vector<Curvature>& found = solutions[i][flip];
+            for (int k = 0; k < static_cast<int>(found.size()); ++k)
+                for (const bool mirrored : {false, true}) {
+                    if (mirrored && options_.mirror == MirrorChoice::never) continue;
+                    for (const double half_turn : {1.0, -1.0}) {
+                        const Matrix3 hand = Vector3(half_turn, mirrored ? -half_turn : half_turn, 1).asDiagonal();
+                        const Matrix3 orthogonal = frame_of(found[k]) * hand * frame_of(seed).transpose();
+                        all.push_back({.pose = similarity_from_orthogonal(
+                                           scale, orthogonal, found[k].point - scale * (orthogonal * seed.point)),
+                                       .flip = flip,
+                                       .seed = i,
+                                       .solution = k});
+                    }
+                }
+        }
+    tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t k) {
+        progress.check();
+        vote(solutions, all[k]);
+        improve(solutions, all[k]);
+    });
+    std::stable_sort(all.begin(), all.end(), better);
+    std::vector<Hypothesis> result;
+    for (const Hypothesis& hypothesis : all) {
+        if (result.size() == most) break;
+        if (std::none_of(result.begin(), result.end(), [&](const Hypothesis& other) {
+                return distance_.relative(hypothesis.pose, other.pose) < same_hypothesis;
+            }))
+            result.push_back(hypothesis);
+    }
+    return result;
+}
+
+double CurvaturePointSearch::objective(double scale, const Progress& progress) const {
+    const TableGround ground(original_.table);
+    double best = 0.0;
+    for (const Hypothesis& hypothesis : poses(scale, 0.0, most_scored, progress))
+        best = std::max(best, quick_score(ground, oriented_, suspect_.features.samples, samples_, hypothesis.pose,
+                                          objective_tolerance * scale * length_, best));
+    return 1.0 - best;
+}
+
+std::string number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", value);
+    return text;
+}
+
+}  // namespace
+
+std::vector<CurvatureSeed> choose_curvature_seeds(const PreparedModel& model, int count) {
+    std::map<int, const Face*> faces;
+    for (const Face& face : model.model.faces)
+        if (!curvature_dependence(face)) faces[face.number] = &face;
+    const std::vector<AreaSample>& samples = model.features.samples;
+    const double length = shape_size(model.features).length;
+    std::vector<CurvatureSeed> pool;
+    const std::size_t stride = samples.size() / seed_pool + 1;
+    for (std::size_t k = 0; k < samples.size(); k += stride) {
+        const Curvature& c = samples[k].curvature;
+        const double size = rho(c);
+        const auto face = faces.find(samples[k].at.face);
+        if (face == faces.end() || !(size > 0.0) || c.kappa_max - c.kappa_min < least_anisotropy * size) continue;
+        const SurfaceDerivatives d = face->second->surface.derivatives(samples[k].at.u, samples[k].at.v, 3);
+        if (!regular(d)) continue;
+        const CurvatureGradient gradient = curvature_gradient(d);
+        Matrix2 slopes;
+        slopes << gradient.gaussian_slope.transpose() / (size * size), gradient.mean_slope.transpose() / size;
+        const double least = slopes.jacobiSvd().singularValues()[1];
+        if (!(least * length > 0.0)) continue;
+        pool.push_back({samples[k].at, c, 1.0 / least});
+    }
+    for (CurvatureSeed& seed : pool) {
+        const double size = rho(seed.curvature);
+        int like = 0;
+        for (const CurvatureSeed& other : pool)
+            like += std::abs(other.curvature.gaussian() - seed.curvature.gaussian()) < alike * size * size &&
+                    std::abs(std::abs(other.curvature.mean()) - std::abs(seed.curvature.mean())) < alike * size;
+        seed.commonness = static_cast<double>(like) / static_cast<double>(pool.size());
+    }
+    const auto worth = [&](const CurvatureSeed& seed) {
+        return std::min(1.0, length / seed.sensitivity) * std::min(1.0, rho(seed.curvature) * length / curved) * rare /
+               (rare + seed.commonness);
+    };
+    // Farthest first, weighted.
+    std::vector<CurvatureSeed> result;
+    std::vector<double> nearest(pool.size(), length);
+    while (static_cast<int>(result.size()) < count) {
+        std::size_t best = pool.size();
+        double best_value = 0.0;
+        for (std::size_t k = 0; k < pool.size(); ++k) {
+            const double value = nearest[k] * std::sqrt(worth(pool[k]));
+            if (value > best_value) {
+                best_value = value;
+                best = k;
+            }
+        }
+        if (best == pool.size()) break;
+        result.push_back(pool[best]);
+        for (std::size_t k = 0; k < pool.size(); ++k)
+            nearest[k] = std::min(nearest[k], (pool[k].curvature.point - pool[best].curvature.point).norm());
+    }
+    return result;
+}
+
+Proposals poses_by_curvature_points(const PreparedModel& original, const PreparedModel& suspect,
+                                    const CurvaturePointMatching& options, const Progress& progress) {
+    const CurvaturePointSearch search(original, suspect, options);
+    if (search.seeds().empty() || search.faces() == 0)
+        return {.why = std::string("kh: ") + (search.faces() == 0 ? "the original" : "the suspect") +
+                       " has no face on which Gaussian and mean curvature together tell the place"};
+    Proposals result{.why = "kh: " + std::to_string(search.seeds().size()) + " points of the suspect"};
+    const auto hand_on = [&](const std::vector<Hypothesis>& poses) {
+        for (const Hypothesis& hypothesis : poses) result.poses.push_back({hypothesis.pose, MatchMethod::kh});
+    };
+    if (options.scale.kind == ScaleChoice::Kind::fixed) {
+        std::vector<Hypothesis> poses = search.poses(1.0, 0.0, most_proposals, progress);
+        if (poses.empty() || poses.front().votes < enough_votes) {
+            const std::vector<Hypothesis> more = search.poses(1.0, loose, most_proposals, progress);
+            poses.insert(poses.end(), more.begin(), more.end());
+            std::stable_sort(poses.begin(), poses.end(), better);
+        }
+        hand_on(poses);
+        if (result.poses.empty()) result.why += " have no counterpart on the original";
+        return result;
+    }
+
+    double low = options.scale.low, high = options.scale.high;
+    if (options.scale.kind == ScaleChoice::Kind::automatic) {
+        const double ratio = shape_size(original.features).length / search.length();
+        low = smallest_part * ratio;
+        high = largest_part * ratio;
+    }
+    const double from = std::log(low), to = std::log(high);
+    const int count = 2 + static_cast<int>((to - from) / std::log(scan_step));
+    int evaluated = 0;
+    const auto objective = [&](double log_scale) {
+        const double value = search.objective(std::exp(log_scale), progress);
+        // The number of evaluations of the minima's search is not known before.
+        progress.report(std::min(1.0, ++evaluated / (count + 10.0 * most_minima)), "searching the scale");
+        return value;
+    };
+    const std::vector<Minimum> minima =
+        scanned_minima(objective, from, to, count, most_minima, [&](double a, double b) {
+            return options.scale_search == ScaleSearch::brent ? brent_minimum(objective, a, b, scale_accuracy)
+                                                              : golden_section_minimum(objective, a, b, scale_accuracy);
+        });
+    for (const Minimum& minimum : minima)
+        hand_on(search.poses(std::exp(minimum.at), 0.0, most_proposals / most_minima, progress));
+    result.why += ", scale searched in " + number(low) + ":" + number(high) + " by " +
+                  (options.scale_search == ScaleSearch::brent ? "Brent's method" : "the golden section") + ", " +
+                  std::to_string(evaluated) + " times";
+    if (!minima.empty()) result.why += ", best near " + number(std::exp(minima.front().at));
+    return result;
+}
+
+}  // namespace umbilic
