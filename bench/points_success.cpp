@@ -4,7 +4,7 @@
 //   --cases N     cases a cell (default 51, shared among the shapes)
 //   --only TEXT   rows whose name contains TEXT
 //   --mirror      also try mirror images, as the command does
-//   --export DIR  also write every trial as original.ply, suspect.ply and truth.txt, for peers
+//   --export DIR  also write every trial as original.ply, suspect.ply and truth.txt, for peers (points_peers.py)
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -71,6 +71,8 @@ void write_trial(const std::string& folder, const PointOriginal& original, const
                   original.name.c_str(), number);
     const std::filesystem::path place = std::filesystem::path(folder) / name;
     std::filesystem::create_directories(place);
+    const std::string dense = (std::filesystem::path(folder) / (original.name + "_dense.ply")).string();
+    if (!std::filesystem::exists(dense)) write_ply(dense, original.stock);
     write_ply((place / "original.ply").string(),
               std::vector<Vector3>(original.stock.begin(), original.stock.begin() + 3000));
     write_ply((place / "suspect.ply").string(), trial.suspect.points);
