@@ -108,7 +108,7 @@ Cell run_cell(const std::vector<std::unique_ptr<PointOriginal>>& originals, cons
         const PreparedPoints suspect = prepare(trial.suspect);
         cell.prepare_seconds.push_back(seconds_since(start));
         start = std::clock();
-        const Alignment alignment = match(*original.prepared, *original.table, suspect, options);
+        const Alignment alignment = match(*original.prepared, suspect, options);
         cell.match_seconds.push_back(seconds_since(start));
         // A pose that is called ambiguous or compatible is still an answer; not found gives its best as runner-up.
         const SimilarityTransform pose = alignment.status != AlignmentStatus::not_found ? alignment.original_suspect
@@ -126,7 +126,7 @@ Cell run_cell(const std::vector<std::unique_ptr<PointOriginal>>& originals, cons
         const PointOriginal& other =
             *originals[(shape + 1 + k / originals.size() % (originals.size() - 1)) % originals.size()];
         ++cell.negatives;
-        cell.false_found += match(*other.prepared, *other.table, suspect, options).found();
+        cell.false_found += match(*other.prepared, suspect, options).found();
     }
     return cell;
 }

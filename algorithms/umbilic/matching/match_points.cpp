@@ -342,19 +342,12 @@ Alignment global_only(Alignment alignment, const MatchOptions& options) {
 
 Alignment match(const PreparedModel& original, const PreparedPoints& suspect, const MatchOptions& options,
                 const Progress& progress) {
-    check_options(options);  // before the work
-    const PrincipalFrameTable table(original.model, point_table_samples, progress.part(0.0, 0.2));
-    return match(original, table, suspect, options, progress.part(0.2, 1.0));
-}
-
-Alignment match(const PreparedModel& original, const PrincipalFrameTable& table, const PreparedPoints& suspect,
-                const MatchOptions& options, const Progress& progress) {
     check_options(options);
     check_method(options);
-    if (table.entries().empty()) throw InvalidInput(original.model.source.path + ": no face has a regular point");
+    if (original.table.entries().empty()) throw InvalidInput(original.model.source.path + ": no face has a regular point");
     const Ground ground(original);
     const Original side{.exact = ground,
-                        .table = table,
+                        .table = original.table,
                         .samples = original.features.samples,
                         .size = original.model.size(),
                         .length = shape_size(original.features).length,
