@@ -8,7 +8,6 @@
 #include <Eigen/Geometry>
 
 #include <umbilic/core/errors.h>
-#include <umbilic/matching/match_points.h>
 
 namespace umbilic::bench {
 
@@ -36,7 +35,6 @@ std::unique_ptr<PointOriginal> point_original(const std::string& name, Model mod
     original->name = name;
     original->model = std::move(model);
     original->prepared = std::unique_ptr<PreparedModel>(new PreparedModel(prepare(original->model)));
-    original->table = std::make_unique<PrincipalFrameTable>(original->model, point_table_samples);
     for (const AreaSample& sample : area_samples(original->model, {.count = stock_points, .seed = 77}))
         original->stock.push_back(sample.curvature.point);
     return original;

@@ -8,7 +8,6 @@
 
 #include <umbilic/core/similarity_transform.h>
 #include <umbilic/matching/prepared_model.h>
-#include <umbilic/matching/principal_frame_table.h>
 #include <umbilic/model/point_cloud.h>
 
 namespace umbilic::bench {
@@ -18,7 +17,6 @@ struct PointOriginal {
     std::string name;
     Model model;
     std::unique_ptr<PreparedModel> prepared;
-    std::unique_ptr<PrincipalFrameTable> table;
     std::vector<Vector3> stock;  ///< uniform by area
 };
 

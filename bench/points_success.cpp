@@ -4,7 +4,7 @@
 //   --cases N     cases a cell (default 51, shared among the shapes)
 //   --only TEXT   rows whose name contains TEXT
 //   --mirror      also try mirror images, as the command does
-//   --export DIR  also write every trial as original.ply, suspect.ply and truth.txt, for peers
+//   --export DIR  also write every trial as original.ply, suspect.ply and truth.txt, for peers (points_peers.py)
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -71,6 +71,8 @@ void write_trial(const std::string& folder, const PointOriginal& original, const
                   original.name.c_str(), number);
     const std::filesystem::path place = std::filesystem::path(folder) / name;
     std::filesystem::create_directories(place);
+    const std::string dense = (std::filesystem::path(folder) / (original.name + "_dense.ply")).string();
+    if (!std::filesystem::exists(dense)) write_ply(dense, original.stock);
     write_ply((place / "original.ply").string(),
               std::vector<Vector3>(original.stock.begin(), original.stock.begin() + 3000));
     write_ply((place / "suspect.ply").string(), trial.suspect.points);
@@ -106,7 +108,7 @@ Cell run_cell(const std::vector<std::unique_ptr<PointOriginal>>& originals, cons
         const PreparedPoints suspect = prepare(trial.suspect);
         cell.prepare_seconds.push_back(seconds_since(start));
         start = std::clock();
-        const Alignment alignment = match(*original.prepared, *original.table, suspect, options);
+        const Alignment alignment = match(*original.prepared, suspect, options);
         cell.match_seconds.push_back(seconds_since(start));
         // A pose that is called ambiguous or compatible is still an answer; not found gives its best as runner-up.
         const SimilarityTransform pose = alignment.status != AlignmentStatus::not_found ? alignment.original_suspect
@@ -124,7 +126,7 @@ Cell run_cell(const std::vector<std::unique_ptr<PointOriginal>>& originals, cons
         const PointOriginal& other =
             *originals[(shape + 1 + k / originals.size() % (originals.size() - 1)) % originals.size()];
         ++cell.negatives;
-        cell.false_found += match(*other.prepared, *other.table, suspect, options).found();
+        cell.false_found += match(*other.prepared, suspect, options).found();
     }
     return cell;
 }

@@ -17,6 +17,7 @@ void add_info(CLI::App& application, Session& session, Command& command);
 void add_umbilics(CLI::App& application, Session& session, Command& command);
 void add_wireframe(CLI::App& application, Session& session, Command& command);
 void add_curve(CLI::App& application, Session& session, Command& command);
+void add_fit(CLI::App& application, Session& session, Command& command);
 void add_match(CLI::App& application, Session& session, Command& command);
 void add_compare(CLI::App& application, Session& session, Command& command);
 

@@ -19,8 +19,6 @@ namespace {
 
 struct CompareWords {
     MatchWords match;
-    ToleranceChoices tolerances;
-    int algorithm = CompareOptions().algorithm;
     std::string report;
     std::optional<Level> fail_on;
 };
@@ -45,36 +43,37 @@ std::string summary(const Comparison& comparison) {
                                            readable_percent(assessment.original_on_suspect.coverage) +
                                            " of the original is covered");
         const std::size_t pairs = assessment.strong.pairs.size();
-        lines.emplace_back("Umbilics", readable_count(pairs) + (pairs == 1 ? " pair" : " pairs"));
+        if (assessment.measured)
+            lines.emplace_back("Noise", readable(find_tolerance(assessment.tolerances, "noise").value, "mm", 3) +
+                                            " (estimated standard deviation of the points)");
+        else
+            lines.emplace_back("Umbilics", readable_count(pairs) + (pairs == 1 ? " pair" : " pairs"));
+        lines.emplace_back("Curvature", assessment.intermediate_why);
     }
     return text + facts(lines);
 }
 
 int run_compare(const Session& session, CompareWords& words) {
     read_given_poses(words.match);
-    words.match.features.samples.seed = session.seed;
-    CompareOptions options;
-    options.features = words.match.features;
-    options.match = words.match.match;
-    options.tolerances = words.tolerances;
-    options.algorithm = words.algorithm;
+    set_seed(words.match, session.seed);
+    const CompareOptions& options = words.match.options;
     const bool with_report = !words.report.empty();
     if (with_report) check_report_folder(words.report);
     const Progress& progress = session.progress;
     ReadOptions read;
     read.display_meshes = with_report;
-    const auto pair =
-        load_pair(session, words.match.original, words.match.suspect, read, options.features, progress.part(0.0, 0.4));
-    const Comparison comparison =
-        compare(*pair->original, *pair->suspect, options, progress.part(0.4, with_report ? 0.7 : 1.0));
-    const Json result = compare_json(*pair->original, *pair->suspect, options, comparison, pair->timing);
+    const auto pair = load_pair(session, words.match.original, words.match.suspect, read, options.features,
+                                options.points, progress.part(0.0, 0.4));
+    const PreparedShape original = pair->original.prepared(), suspect = pair->suspect.prepared();
+    const Comparison comparison = compare(original, suspect, options, progress.part(0.4, with_report ? 0.7 : 1.0));
+    const Json result = compare_json(original, suspect, options, comparison, pair->timing);
     Timing timing = pair->timing;
     timing.insert(timing.end(), comparison.timing.begin(), comparison.timing.end());
     if (with_report) {
         const auto start = std::chrono::steady_clock::now();
         const ReportInput input{
-            *pair->original, *pair->suspect, pair->original_read.meshes, pair->suspect_read.meshes, options,
-            comparison,      pair->timing,   session.command_line};
+            original,   suspect,      pair->original.file.meshes, pair->suspect.file.meshes, options,
+            comparison, pair->timing, session.command_line};
         write_report(words.report, input, result, progress.part(0.7, 1.0));
         timing.emplace_back("report", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     }
@@ -98,20 +97,24 @@ void add_compare(CLI::App& application, Session& session, Command& command) {
     const auto tolerance = [&](const char* names, std::optional<double>& value, const char* meaning) {
         subcommand->add_option(names, value, meaning)->check(CLI::PositiveNumber)->group("Tolerances");
     };
-    tolerance("--distance", words->tolerances.distance, "Weak test, mm of the original");
-    tolerance("--kappa", words->tolerances.kappa, "Intermediate test, curvatures, 1/mm of the original");
-    tolerance("--direction", words->tolerances.direction, "Intermediate test, principal directions, radians");
-    tolerance("--umbilic-distance,--umbilic_distance", words->tolerances.umbilic_distance,
+    tolerance("--distance", words->match.options.tolerances.distance, "Weak test, mm of the original");
+    tolerance("--kappa", words->match.options.tolerances.kappa, "Intermediate test, curvatures, 1/mm of the original");
+    tolerance("--direction", words->match.options.tolerances.direction,
+              "Intermediate test, principal directions, radians");
+    tolerance("--umbilic-distance,--umbilic_distance", words->match.options.tolerances.umbilic_distance,
               "Strong test, mm of the original");
     subcommand
-        ->add_option("--cell", words->tolerances.cell, "Cell of the local similarity, relative to a face's domain")
+        ->add_option("--cell", words->match.options.tolerances.cell,
+                     "Cell of the local similarity, relative to a face's domain")
         ->check(CLI::Range(1e-3, 1.0))
         ->group("Tolerances");
-    subcommand->add_option("--algorithm", words->algorithm, "Decision algorithm that gives the level: 1 or 2")
+    subcommand
+        ->add_option("--algorithm", words->match.options.algorithm, "Decision algorithm that gives the level: 1 or 2")
         ->check(CLI::IsMember({1, 2}))
         ->type_name("1|2");
     subcommand
-        ->add_option("--report", words->report, "Folder for report.html, result.json, deviation.csv, aligned.step")
+        ->add_option("--report", words->report,
+                     "Folder for report.html, result.json, deviation.csv, aligned.step (or .ply)")
         ->type_name("DIR");
     subcommand
         ->add_option("--fail-on", words->fail_on,

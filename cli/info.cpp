@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
 
+#include <point_files/read_points.h>
 #include <umbilic/differential/recognise.h>
 
 #include <cli/commands.h>
@@ -75,15 +77,38 @@ std::string face_table(const Model& model) {
                  {0, 2, 3, 7});
 }
 
+int run_info_of_points(const Session& session, const std::string& path) {
+    const PointCloud cloud = load_points(session, path, std::numeric_limits<std::size_t>::max(), session.progress);
+    clear_progress_bar();
+    const BoundingBox box = cloud.box();
+    const Vector3 size = box.high - box.low;
+    print(session,
+          bold(printable(path)) + "\n" +
+              facts({{"Format", cloud.source.format + " (" + cloud.layout + ")"},
+                     {"SHA-256", cloud.source.sha256},
+                     {"Bytes", readable_count(cloud.source.bytes)},
+                     {"Unit", cloud.source.unit},
+                     {"Size", readable(size.x()) + " × " + readable(size.y()) + " × " + readable(size.z()) + " mm"},
+                     {"Points", readable_count(cloud.points.size())},
+                     {"Triangles", readable_count(cloud.triangles.size())},
+                     {"Normals", cloud.normals.empty() ? "no" : "yes"}}));
+    write_json(session, {{"schema", "umbilic.info/1"},
+                         {"input", input_json(cloud)},
+                         {"surfaces", Json::object()},
+                         {"faces", Json::array()}});
+    return exit_done;
+}
+
 }  // namespace
 
 void add_info(CLI::App& application, Session& session, Command& command) {
     auto* const subcommand = application.add_subcommand("info", "Units, solids, faces, area, volume, what was skipped");
     const auto path = std::make_shared<std::string>();
-    subcommand->add_option("FILE", *path, "STEP, IGES or BREP file")->required();
+    subcommand->add_option("FILE", *path, "STEP, IGES or BREP file, or points or a mesh")->required();
     add_common_options(*subcommand, session);
     subcommand->callback([&session, &command, path] {
         command = [&session, path] {
+            if (holds_points(*path)) return run_info_of_points(session, *path);
             const ReadResult read = load(session, *path, {}, session.progress);
             clear_progress_bar();
             const auto recognised = recognise(read.model, {}, session.progress);

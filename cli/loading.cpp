@@ -8,6 +8,7 @@
 #include <tbb/parallel_invoke.h>
 
 #include <cli/console.h>
+#include <point_files/read_points.h>
 
 namespace umbilic {
 
@@ -16,12 +17,20 @@ namespace {
 /// Skipped parts that are named one by one; all are in the JSON result.
 constexpr std::size_t most_skipped_lines = 5;
 
+void print_warning(const std::string& path, const std::string& text) {
+    fmt::print(stderr, "umbilic: {}: warning: {}\n", printable(path), printable(text));
+}
+
+void print_warnings(const Session& session, const PointCloud& cloud) {
+    if (session.quiet) return;
+    clear_progress_bar();
+    for (const std::string& warning : cloud.warnings) print_warning(cloud.source.path, warning);
+}
+
 void print_warnings(const Session& session, const Model& model) {
     if (session.quiet) return;
     clear_progress_bar();
-    const auto line = [&](const std::string& text) {
-        fmt::print(stderr, "umbilic: {}: warning: {}\n", printable(model.source.path), printable(text));
-    };
+    const auto line = [&](const std::string& text) { print_warning(model.source.path, text); };
     for (const std::string& warning : model.warnings) line(warning);
     for (std::size_t i = 0; i < std::min(most_skipped_lines, model.skipped.size()); ++i) {
         const Skipped& skipped = model.skipped[i];
@@ -45,27 +54,47 @@ ReadResult load(const Session& session, const std::string& path, const ReadOptio
     return result;
 }
 
+PointCloud load_points(const Session& session, const std::string& path, std::size_t most_points,
+                       const Progress& progress) {
+    PointCloud cloud = read_points(path, progress);
+    thin_out(cloud, most_points, session.seed);
+    print_warnings(session, cloud);
+    return cloud;
+}
+
 std::unique_ptr<LoadedPair> load_pair(const Session& session, const std::string& original, const std::string& suspect,
                                       const ReadOptions& read, const FeatureOptions& features,
-                                      const Progress& progress) {
+                                      const PointFeatureOptions& points, const Progress& progress) {
     auto pair = std::make_unique<LoadedPair>();
     const auto start = std::chrono::steady_clock::now();
     const Progress reading = progress.part(0.0, 0.4);
+    const auto read_into = [&](LoadedShape& shape, const std::string& path) {
+        if (holds_points(path)) {
+            shape.cloud = read_points(path, reading);
+            thin_out(shape.cloud, points.most_points, points.seed);
+        } else {
+            shape.file = read_file(path, read, reading);
+        }
+    };
     // Reading waits for a child process, so it gets a thread of its own whatever --threads says.
-    std::future<ReadResult> second = std::async(std::launch::async, [&] { return read_file(suspect, read, reading); });
-    pair->original_read = read_file(original, read, reading);
-    pair->suspect_read = second.get();
+    std::future<void> second = std::async(std::launch::async, [&] { read_into(pair->suspect, suspect); });
+    read_into(pair->original, original);
+    second.get();
     pair->timing.emplace_back("read", seconds_since(start));
-    print_warnings(session, pair->original_read.model);
-    print_warnings(session, pair->suspect_read.model);
+    for (const LoadedShape* shape : {&pair->original, &pair->suspect}) {
+        print_warnings(session, shape->file.model);
+        print_warnings(session, shape->cloud);
+    }
 
     const auto read_end = std::chrono::steady_clock::now();
     const Progress preparing = progress.part(0.4, 1.0);
-    const auto prepared = [&](const Model& model) {
-        return std::unique_ptr<PreparedModel>(new PreparedModel(prepare(model, features, preparing)));
+    const auto prepare_in = [&](LoadedShape& shape) {
+        if (shape.cloud.points.empty())
+            shape.model.reset(new PreparedModel(prepare(shape.file.model, features, preparing)));
+        else
+            shape.points.reset(new PreparedPoints(prepare(shape.cloud, points, preparing)));
     };
-    tbb::parallel_invoke([&] { pair->original = prepared(pair->original_read.model); },
-                         [&] { pair->suspect = prepared(pair->suspect_read.model); });
+    tbb::parallel_invoke([&] { prepare_in(pair->original); }, [&] { prepare_in(pair->suspect); });
     pair->timing.emplace_back("features", seconds_since(read_end));
     return pair;
 }

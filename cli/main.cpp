@@ -54,6 +54,7 @@ int run(int argc, char** argv) {
     Command command;
     add_compare(application, session, command);
     add_match(application, session, command);
+    add_fit(application, session, command);
     add_curve(application, session, command);
     add_umbilics(application, session, command);
     add_wireframe(application, session, command);

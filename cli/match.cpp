@@ -17,11 +17,14 @@ namespace {
 
 int run_match(const Session& session, MatchWords& words) {
     read_given_poses(words);
-    words.features.samples.seed = session.seed;
+    set_seed(words, session.seed);
     const Progress& progress = session.progress;
-    const auto pair = load_pair(session, words.original, words.suspect, {}, words.features, progress.part(0.0, 0.5));
+    const CompareOptions& options = words.options;
+    const auto pair = load_pair(session, words.original, words.suspect, {}, options.features, options.points,
+                                progress.part(0.0, 0.5));
+    const PreparedShape original = pair->original.prepared(), suspect = pair->suspect.prepared();
     const auto start = std::chrono::steady_clock::now();
-    const Alignment alignment = match(*pair->original, *pair->suspect, words.match, progress.part(0.5, 1.0));
+    const Alignment alignment = match(original, suspect, options.match, progress.part(0.5, 1.0));
     pair->timing.emplace_back("match", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     clear_progress_bar();
     auto lines = alignment_facts(alignment);
@@ -33,8 +36,7 @@ int run_match(const Session& session, MatchWords& words) {
     }
     print(session, facts(lines));
     print_timing(session, pair->timing);
-    write_json(session, match_json(pair->original_read.model, pair->suspect_read.model, words.features, words.match,
-                                   alignment, pair->timing));
+    write_json(session, match_json(original, suspect, options, alignment, pair->timing));
     return exit_done;
 }
 

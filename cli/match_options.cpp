@@ -39,11 +39,15 @@ ScaleChoice scale_from(const std::string& text) {
 }  // namespace
 
 void add_match_options(CLI::App& subcommand, MatchWords& words) {
-    subcommand.add_option("ORIGINAL", words.original, "STEP, IGES or BREP file")->required();
-    subcommand.add_option("SUSPECT", words.suspect, "STEP, IGES or BREP file that may be a copy")->required();
+    subcommand.add_option("ORIGINAL", words.original, "STEP, IGES or BREP file; points or mesh if the suspect is one")
+        ->required();
+    subcommand
+        .add_option("SUSPECT", words.suspect,
+                    "The file that may be a copy: STEP, IGES or BREP, or points or a mesh (xyz, ply, stl, obj)")
+        ->required();
     const char* const group = "Pose";
     subcommand
-        .add_option("--method", words.match.method,
+        .add_option("--method", words.options.match.method,
                     "How poses are proposed: auto, umbilics, moments, curvature, kh or points")
         ->transform(CLI::CheckedTransformer(std::map<std::string, MethodChoice>{{"auto", MethodChoice::automatic},
                                                                                 {"umbilics", MethodChoice::umbilics},
@@ -56,25 +60,25 @@ void add_match_options(CLI::App& subcommand, MatchWords& words) {
         ->group(group);
     subcommand
         .add_option_function<std::string>(
-            "--scale", [&words](const std::string& text) { words.match.scale = scale_from(text); },
+            "--scale", [&words](const std::string& text) { words.options.match.scale = scale_from(text); },
             "What is known of the scale, suspect to original: auto, fixed (it is 1) or LOW:HIGH")
         ->type_name("SCALE")
         ->group(group);
     subcommand
-        .add_option("--scale-search", words.match.scale_search,
+        .add_option("--scale-search", words.options.match.scale_search,
                     "How the method kh searches a scale that is not fixed: golden (section) or brent")
         ->transform(CLI::CheckedTransformer(std::map<std::string, ScaleSearch>{{"golden", ScaleSearch::golden_section},
                                                                                {"brent", ScaleSearch::brent}})
                         .description(""))
         ->type_name("SEARCH")
         ->group(group);
-    subcommand.add_option("--mirror", words.match.mirror, "Whether mirror images are tried: auto or never")
+    subcommand.add_option("--mirror", words.options.match.mirror, "Whether mirror images are tried: auto or never")
         ->transform(CLI::CheckedTransformer(std::map<std::string, MirrorChoice>{{"auto", MirrorChoice::automatic},
                                                                                 {"never", MirrorChoice::never}})
                         .description(""))
         ->type_name("MIRROR")
         ->group(group);
-    subcommand.add_option("--scope", words.match.scope, "Whole models or parts: auto, global or partial")
+    subcommand.add_option("--scope", words.options.match.scope, "Whole models or parts: auto, global or partial")
         ->transform(CLI::CheckedTransformer(std::map<std::string, ScopeChoice>{{"auto", ScopeChoice::automatic},
                                                                                {"global", ScopeChoice::global},
                                                                                {"partial", ScopeChoice::partial}})
@@ -95,28 +99,37 @@ void add_match_options(CLI::App& subcommand, MatchWords& words) {
     const auto add = [&](const char* names, auto& value, const char* meaning, const CLI::Validator& check) {
         subcommand.add_option(names, value, meaning)->check(check)->group(tolerances);
     };
-    add("--match_tolerance", words.match.tolerance, "Distance within which a sample lies on the other model, mm",
-        CLI::PositiveNumber);
-    add("--umbilic_invariant_tolerance", words.match.umbilic_invariant_tolerance,
+    add("--match_tolerance", words.options.match.tolerance,
+        "Distance within which a sample lies on the other model, mm", CLI::PositiveNumber);
+    add("--umbilic_invariant_tolerance", words.options.match.umbilic_invariant_tolerance,
         "Difference of the invariants of two umbilics that may correspond", CLI::PositiveNumber);
-    add("--samples", words.features.samples.count, "Points spread over each model", CLI::Range(1, 10'000'000));
-    add("--umbilic_resolution", words.features.umbilics.resolution,
+    add("--samples", words.options.features.samples.count, "Points spread over each model", CLI::Range(1, 10'000'000));
+    add("--point_samples", words.options.points.samples, "Points of a cloud at which it is measured",
+        CLI::Range(40, 10'000'000));
+    add("--most_points", words.options.points.most_points,
+        "Points of a larger cloud that are used, chosen at random; the result says so", CLI::Range(40, 100'000'000));
+    add("--umbilic_resolution", words.options.features.umbilics.resolution,
         "Side of the smallest box of the umbilic search, relative to the domain", CLI::PositiveNumber);
-    add("--umbilic_boxes", words.features.umbilics.boxes_per_patch, "Boxes the umbilic search may use on a patch",
-        CLI::PositiveNumber);
-    add("--umbilic_margin", words.features.umbilics.generic_margin,
+    add("--umbilic_boxes", words.options.features.umbilics.boxes_per_patch,
+        "Boxes the umbilic search may use on a patch", CLI::PositiveNumber);
+    add("--umbilic_margin", words.options.features.umbilics.generic_margin,
         "Relative error of the cubic forms that is assumed on top of rounding", CLI::NonNegativeNumber);
-    add("--umbilic_accuracy", words.features.umbilics.accuracy,
+    add("--umbilic_accuracy", words.options.features.umbilics.accuracy,
         "How far (mm) control points may be from where they should be: types that this changes are non-generic",
         CLI::NonNegativeNumber);
-    add("--umbilic_recognition", words.features.umbilics.recognition,
+    add("--umbilic_recognition", words.options.features.umbilics.recognition,
         "Deviation from a plane or sphere, relative to a face's size, within which it is umbilic everywhere",
         CLI::NonNegativeNumber);
 }
 
+void set_seed(MatchWords& words, std::uint64_t seed) {
+    words.options.features.samples.seed = seed;
+    words.options.points.seed = seed;
+}
+
 void read_given_poses(MatchWords& words) {
-    if (!words.initial_path.empty()) words.match.initial = read_transform(words.initial_path);
-    if (!words.pairs_path.empty()) words.match.pairs = read_point_pairs(words.pairs_path);
+    if (!words.initial_path.empty()) words.options.match.initial = read_transform(words.initial_path);
+    if (!words.pairs_path.empty()) words.options.match.pairs = read_point_pairs(words.pairs_path);
 }
 
 }  // namespace umbilic

@@ -105,6 +105,15 @@ void write_surfaces_step(const Model& model, const std::string& step_path, const
     write_step(step_path, "write", options, [&](std::ostream& out) { write_model(model, out); });
 }
 
+void write_surface_step(const NurbsSurface& surface, const std::string& step_path, const ReadOptions& options) {
+    Model model;
+    model.source = {.path = step_path, .format = "shape", .unit = "mm"};
+    model.shells = model.declared_faces = 1;
+    model.box = surface.pole_box();
+    model.faces.push_back({.number = 1, .surface = surface, .region = TrimmingRegion(surface.domain())});
+    write_surfaces_step(model, step_path, options);
+}
+
 void write_curves_step(const std::vector<std::vector<Vector3>>& curves, const std::string& step_path,
                        const ReadOptions& options) {
     write_step(step_path, "curves", options, [&](std::ostream& out) {

@@ -39,6 +39,9 @@ void write_transformed_step(const std::string& path, const SimilarityTransform& 
 /// process; the file appears whole or not at all. Throws InvalidInput or NumericFailure, naming the file.
 void write_surfaces_step(const Model& model, const std::string& step_path, const ReadOptions& options = {});
 
+/// The same of one untrimmed surface.
+void write_surface_step(const NurbsSurface& surface, const std::string& step_path, const ReadOptions& options = {});
+
 /// Writes curves as edges of a STEP file (in a child process, see curves_to_shape.h), each through its points (mm); the
 /// file appears whole or not at all.
 void write_curves_step(const std::vector<std::vector<Vector3>>& curves, const std::string& step_path,

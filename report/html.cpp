@@ -51,6 +51,8 @@ std::string report_html(const ReportInput& input, const Progress& progress) {
     page.set("viewer", page_viewer());
     page.set("scene", scene_json(scene));
     page.set("posed", scene.posed);
+    page.set("has_edges", !scene.original.edges.empty() || !scene.suspect.edges.empty());
+    page.set("measured", comparison.assessment.measured);
     page.set("legend_size", legend_svg(scene.scale, false, "scale-size"));
     page.set("legend_signed", legend_svg(scene.scale, true, "scale-signed"));
     page.set("legend_printed", legend_svg(scene.scale, false, "scale-printed"));
@@ -68,7 +70,7 @@ std::string report_html(const ReportInput& input, const Progress& progress) {
     progress.report(0.9, "writing the page");
     set_summary(input, page);
     set_decisions(comparison.verdict, page);
-    set_exhibits(input.original.model, input.suspect.model, page);
+    set_exhibits(input.original, input.suspect, page);
     set_alignment(comparison.alignment, page);
     set_statistics(comparison.assessment, page);
     set_umbilics(input, page);

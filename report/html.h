@@ -13,9 +13,9 @@ namespace umbilic {
 
 /// Everything a report tells of one comparison. References must outlive the call they are given to.
 struct ReportInput {
-    const PreparedModel& original;
-    const PreparedModel& suspect;
-    const std::vector<DisplayMesh>& original_meshes;
+    PreparedShape original;
+    PreparedShape suspect;
+    const std::vector<DisplayMesh>& original_meshes;  ///< of models; none of points
     const std::vector<DisplayMesh>& suspect_meshes;
     const CompareOptions& options;
     const Comparison& comparison;

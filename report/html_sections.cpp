@@ -60,8 +60,8 @@ void set_summary(const ReportInput& input, PageData& page) {
     const Assessment& assessment = comparison.assessment;
     const Alignment& alignment = comparison.alignment;
     const Verdict& verdict = comparison.verdict;
-    page.set("original_name", base_name(input.original.model.source.path));
-    page.set("suspect_name", base_name(input.suspect.model.source.path));
+    page.set("original_name", base_name(input.original.source().path));
+    page.set("suspect_name", base_name(input.suspect.source().path));
     page.set("answer", comparison.answer.text);
     page.set("level", name(verdict.level));
     page.set("long_answer", comparison.answer.text.size() > long_answer);
@@ -88,7 +88,10 @@ void set_summary(const ReportInput& input, PageData& page) {
                assessment.scope == MatchScope::partial ? "largest deviation in the overlap" : "largest deviation");
         figure(readable(alignment.original_suspect.scale, 6), "scale, suspect to original");
         const std::size_t pairs = assessment.strong.pairs.size();
-        figure(readable_count(pairs), pairs == 1 ? "pair of umbilics" : "pairs of umbilics");
+        if (assessment.measured)
+            figure(readable(find_tolerance(assessment.tolerances, "noise").value, "mm", 3), "noise of the points");
+        else
+            figure(readable_count(pairs), pairs == 1 ? "pair of umbilics" : "pairs of umbilics");
     }
     page.set("figures", figures);
     page.set("has_figures", !forward.nodes.empty());
@@ -112,47 +115,71 @@ void set_decisions(const Verdict& verdict, PageData& page) {
     page.set("decisions", decisions);
 }
 
-void set_exhibits(const Model& original, const Model& suspect, PageData& page) {
+void set_exhibits(const PreparedShape& original, const PreparedShape& suspect, PageData& page) {
     PageData rows{PageData::type::list};
     const auto row = [&](const char* what, const auto& text_of) {
         rows.push_back(entry({{"what", what}, {"original", text_of(original)}, {"suspect", text_of(suspect)}}));
     };
-    row("File", [](const Model& model) { return base_name(model.source.path); });
-    row("Path", [](const Model& model) { return model.source.path; });
-    row("SHA-256", [](const Model& model) { return model.source.sha256; });
-    row("Bytes", [](const Model& model) { return readable_count(model.source.bytes); });
-    row("Format", [](const Model& model) { return model.source.format; });
-    row("Unit", [](const Model& model) {
-        const std::string& unit = model.source.unit;
-        return unit == "mm" ? unit : unit + " (1 = " + readable(model.source.unit_in_mm, 8) + " mm)";
+    /// A row that models, or points, have nothing to say to.
+    const auto row_of_models = [&](const char* what, const auto& text_of) {
+        row(what, [&](const PreparedShape& s) { return s.model() ? text_of(s.model()->model) : std::string("–"); });
+    };
+    const auto row_of_points = [&](const char* what, const auto& text_of) {
+        if (!original.points() && !suspect.points()) return;
+        row(what, [&](const PreparedShape& s) { return s.points() ? text_of(*s.points()) : std::string("–"); });
+    };
+    row("File", [](const PreparedShape& s) { return base_name(s.source().path); });
+    row("Path", [](const PreparedShape& s) { return s.source().path; });
+    row("SHA-256", [](const PreparedShape& s) { return s.source().sha256; });
+    row("Bytes", [](const PreparedShape& s) { return readable_count(s.source().bytes); });
+    row("Format", [](const PreparedShape& s) {
+        return s.points() ? s.source().format + " (" + s.points()->cloud.layout + ")" : s.source().format;
     });
-    row("Solids", [](const Model& model) { return readable_count(model.solids.size()); });
-    row("Faces", [](const Model& model) {
+    row("Unit", [](const PreparedShape& s) {
+        const std::string& unit = s.source().unit;
+        return unit == "mm" || s.points() ? unit : unit + " (1 = " + readable(s.source().unit_in_mm, 8) + " mm)";
+    });
+    row_of_models("Solids", [](const Model& model) { return readable_count(model.solids.size()); });
+    row_of_models("Faces", [](const Model& model) {
         const std::string read = readable_count(model.faces.size());
         return model.declared_faces < 0 ? read
                                         : read + " of " + readable_count(model.declared_faces) + " that it declares";
     });
-    row("Size", [](const Model& model) {
-        if (model.box.empty()) return std::string("–");
-        const Vector3 size = model.box.high - model.box.low;
+    row_of_points("Points", [](const PreparedPoints& points) { return readable_count(points.cloud.points.size()); });
+    row_of_points("Triangles",
+                  [](const PreparedPoints& points) { return readable_count(points.cloud.triangles.size()); });
+    row_of_points("Noise (estimated)", [](const PreparedPoints& points) { return readable(points.noise, "mm", 3); });
+    row("Size", [](const PreparedShape& s) {
+        const BoundingBox box = s.box();
+        if (box.empty()) return std::string("–");
+        const Vector3 size = box.high - box.low;
         return readable(size.x()) + " × " + readable(size.y()) + " × " + readable(size.z()) + " mm";
     });
-    row("Area", [](const Model& model) { return readable(model.area, "mm²", 8); });
-    row("Volume", [](const Model& model) { return model.solids.empty() ? "–" : readable(model.volume, "mm³", 8); });
-    row("Topology valid", [](const Model& model) { return yes_no(model.valid); });
+    row("Area", [](const PreparedShape& s) {
+        return s.model() ? readable(s.model()->model.area, "mm²", 8) : "about " + readable(s.points()->area, "mm²", 3);
+    });
+    row_of_models("Volume", [](const Model& model) {
+        return model.solids.empty() ? std::string("–") : readable(model.volume, "mm³", 8);
+    });
+    row_of_models("Topology valid", [](const Model& model) { return yes_no(model.valid); });
     page.set("exhibits", rows);
 
     PageData notes{PageData::type::list};
-    for (const Model* model : {&original, &suspect}) {
+    for (const PreparedShape* shape : {&original, &suspect}) {
         std::vector<std::string> lines;
-        for (const Skipped& skipped : model->skipped) {
-            lines.push_back("Skipped " + (skipped.face > 0 ? "face " + std::to_string(skipped.face) : skipped.entity) +
-                            ": " + skipped.why);
+        if (const PreparedModel* prepared = shape->model()) {
+            for (const Skipped& skipped : prepared->model.skipped) {
+                lines.push_back("Skipped " +
+                                (skipped.face > 0 ? "face " + std::to_string(skipped.face) : skipped.entity) + ": " +
+                                skipped.why);
+            }
+            for (const std::string& repair : prepared->model.repaired) lines.push_back("Repaired: " + repair);
         }
-        for (const std::string& repair : model->repaired) lines.push_back("Repaired: " + repair);
-        for (const std::string& warning : model->warnings) lines.push_back("Warning: " + warning);
+        for (const std::string& warning :
+             shape->model() ? shape->model()->model.warnings : shape->points()->cloud.warnings)
+            lines.push_back("Warning: " + warning);
         if (lines.empty()) continue;
-        PageData note = entry({{"model", model == &original ? "Original" : "Suspect"}});
+        PageData note = entry({{"model", shape == &original ? "Original" : "Suspect"}});
         note.set("lines", texts(lines));
         notes.push_back(note);
     }
@@ -228,7 +255,9 @@ void set_statistics(const Assessment& assessment, PageData& page) {
     page.set("statistics", rows);
     const bool assessed = !assessment.suspect_on_original.nodes.empty();
     page.set("assessed", assessed);
-    page.set("partial", assessment.scope == MatchScope::partial);
+    page.set("partial", assessment.scope == MatchScope::partial || assessment.measured);
+    page.set("intermediate_why", assessment.intermediate_why);
+    page.set("has_intermediate_why", !assessment.intermediate_why.empty());
 
     PageData local{PageData::type::list};
     const auto similarity = [&](const char* what, const LocalSimilarity& value, const char* unit) {

@@ -15,7 +15,7 @@ void set_summary(const ReportInput& input, PageData& page);
 /// Both decision algorithms, step by step.
 void set_decisions(const Verdict& verdict, PageData& page);
 /// Both files side by side.
-void set_exhibits(const Model& original, const Model& suspect, PageData& page);
+void set_exhibits(const PreparedShape& original, const PreparedShape& suspect, PageData& page);
 /// Pose, runners-up, symmetries.
 void set_alignment(const Alignment& alignment, PageData& page);
 /// Statistics of both directions, local similarity, faces.

@@ -42,7 +42,9 @@ PageData umbilic_row(const LocatedUmbilic& located, const std::string& label, co
     return row;
 }
 
-std::string search_text(const PreparedModel& prepared) {
+std::string search_text(const PreparedShape& shape) {
+    if (!shape.model()) return "measured points, in which no umbilics are searched";
+    const PreparedModel& prepared = *shape.model();
     std::size_t isolated = 0, lines = 0, regions = 0, undecided = 0, complete = 0, incomplete = 0;
     for (const FaceUmbilics& found : prepared.features.umbilics) {
         isolated += found.umbilics.size();

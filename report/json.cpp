@@ -48,6 +48,44 @@ Json input_json(const Model& model) {
             {"warnings", model.warnings}};
 }
 
+Json input_json(const PointCloud& cloud) {
+    const Source& source = cloud.source;
+    const BoundingBox box = cloud.box();
+    return {{"path", source.path},
+            {"sha256", source.sha256},
+            {"bytes", source.bytes},
+            {"format", source.format},
+            {"layout", cloud.layout},
+            {"unit", source.unit},
+            {"unit_in_mm", number_json(source.unit_in_mm)},
+            {"solids", 0},
+            {"faces", 0},
+            {"nurbs_faces", 0},
+            {"points", cloud.points.size()},
+            {"triangles", cloud.triangles.size()},
+            {"normals", !cloud.normals.empty()},
+            {"thinned_out", cloud.thinned_out},
+            {"not_finite", cloud.not_finite},
+            {"merged", cloud.merged},
+            {"degenerate_triangles", cloud.degenerate_triangles},
+            {"area", nullptr},
+            {"volume", nullptr},
+            {"noise", nullptr},
+            {"box", {vector_json(box.low), vector_json(box.high)}},
+            {"skipped", Json::array()},
+            {"repaired", Json::array()},
+            {"warnings", cloud.warnings}};
+}
+
+Json input_json(const PreparedShape& shape) {
+    if (shape.model()) return input_json(shape.model()->model);
+    const PreparedPoints& points = *shape.points();
+    Json json = input_json(points.cloud);
+    json["area"] = number_json(points.area);
+    json["noise"] = number_json(points.noise);
+    return json;
+}
+
 Json info_json(const Model& model, const std::vector<std::optional<RecognisedSurface>>& recognised) {
     std::map<std::string, int> by_surface;
     Json faces = Json::array();

@@ -30,6 +30,11 @@ std::string text(const Json& json);
 /// The model as an exhibit: file, checksum, unit, counts, mass properties, what was skipped or repaired.
 Json input_json(const Model& model);
 
+/// The same of measured points, with their number and layout; format "points". `noise` and the area are known of
+/// prepared points only.
+Json input_json(const PointCloud& cloud);
+Json input_json(const PreparedShape& shape);
+
 /// Schema "umbilic.info/1". `recognised` as recognise() gives it for this model.
 Json info_json(const Model& model, const std::vector<std::optional<RecognisedSurface>>& recognised);
 
@@ -42,13 +47,13 @@ Json umbilics_json(const Model& model, const std::vector<FaceUmbilics>& umbilics
 /// The pose alone, part of both results below. What was not found is null.
 Json alignment_json(const Alignment& alignment);
 
-/// Schema "umbilic.match/1". `timing` in seconds, by stage.
-Json match_json(const Model& original, const Model& suspect, const FeatureOptions& features,
-                const MatchOptions& options, const Alignment& alignment, const Timing& timing);
+/// Schema "umbilic.match/1". Of the options those of features, points and match. `timing` in seconds, by stage.
+Json match_json(const PreparedShape& original, const PreparedShape& suspect, const CompareOptions& options,
+                const Alignment& alignment, const Timing& timing);
 
 /// Schema "umbilic.compare/1". `timing` holds the stages before the comparison (reading, features); the comparison's
 /// own follow.
-Json compare_json(const PreparedModel& original, const PreparedModel& suspect, const CompareOptions& options,
+Json compare_json(const PreparedShape& original, const PreparedShape& suspect, const CompareOptions& options,
                   const Comparison& comparison, const Timing& timing);
 
 }  // namespace umbilic

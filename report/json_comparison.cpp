@@ -3,16 +3,10 @@
 
 #include <report/json_geometry.h>
 #include <report/parameters.h>
-#include <report/versions.h>
 
 namespace umbilic {
 
 namespace {
-
-Json tool_json() {
-    const Versions used = versions();
-    return {{"name", "umbilic"}, {"version", used.umbilic}, {"commit", used.commit}, {"opencascade", used.opencascade}};
-}
 
 Json transform_json(const SimilarityTransform& transform) {
     Json rotation = Json::array();
@@ -21,12 +15,6 @@ Json transform_json(const SimilarityTransform& transform) {
             {"scale", number_json(transform.scale)},
             {"rotation", std::move(rotation)},
             {"translation", vector_json(transform.translation)}};
-}
-
-Json timing_json(const Timing& timing) {
-    Json json = Json::object();
-    for (const auto& [stage, seconds] : timing) json[stage] = number_json(seconds);
-    return json;
 }
 
 Json statistics_json(const Statistics& statistics) {
@@ -43,8 +31,8 @@ Json directed_json(const DirectedComparison& comparison) {
             {"coverage", number_json(comparison.coverage)},       {"nodes", comparison.nodes.size()}};
 }
 
-Json strong_json(const PreparedModel& original, const PreparedModel& suspect, const StrongTest& strong) {
-    const auto umbilics = [](const PreparedModel& prepared) {
+Json strong_json(const PreparedShape& original, const PreparedShape& suspect, const StrongTest& strong) {
+    const auto umbilics = [](const PreparedShape& prepared) {
         Json json = Json::array();
         for (const auto& [face, umbilic] : isolated_umbilics(prepared)) {
             json.push_back({{"face", face->number}});
@@ -66,7 +54,7 @@ Json strong_json(const PreparedModel& original, const PreparedModel& suspect, co
             {"umbilics", {{"original", umbilics(original)}, {"suspect", umbilics(suspect)}}}};
 }
 
-Json tests_json(const PreparedModel& original, const PreparedModel& suspect, const Assessment& assessment) {
+Json tests_json(const PreparedShape& original, const PreparedShape& suspect, const Assessment& assessment) {
     const DirectedComparison& forward = assessment.suspect_on_original;
     const bool assessed = !forward.nodes.empty();
     return {{"weak",
@@ -74,7 +62,8 @@ Json tests_json(const PreparedModel& original, const PreparedModel& suspect, con
               {"tolerance", assessed ? number_json(assessment.distance.tolerance) : Json(nullptr)},
               {"distance", statistics_json(forward.distance)}}},
             {"intermediate",
-             {{"passed", assessment.intermediate_passed},
+             {{"passed", assessment.intermediate_why.empty() ? Json(assessment.intermediate_passed) : Json(nullptr)},
+              {"why", assessment.intermediate_why},
               {"kappa_max", statistics_json(forward.kappa_max)},
               {"kappa_min", statistics_json(forward.kappa_min)},
               {"direction", statistics_json(forward.direction)}}},
@@ -152,6 +141,7 @@ Json alignment_json(const Alignment& alignment) {
     json["rms"] = known(alignment.rms);
     json["max"] = known(alignment.max);
     json["relative_max"] = known(alignment.relative_max);
+    json["scale_deviation"] = alignment.scale_deviation > 0.0 ? known(alignment.scale_deviation) : Json(nullptr);
     json["suspect_coverage"] = number_json(alignment.suspect_coverage);
     json["original_coverage"] = number_json(alignment.original_coverage);
     json["candidates"] = Json::array();
@@ -171,23 +161,25 @@ Json alignment_json(const Alignment& alignment) {
     return json;
 }
 
-Json match_json(const Model& original, const Model& suspect, const FeatureOptions& features,
-                const MatchOptions& options, const Alignment& alignment, const Timing& timing) {
+Json match_json(const PreparedShape& original, const PreparedShape& suspect, const CompareOptions& options,
+                const Alignment& alignment, const Timing& timing) {
+    std::vector<Parameter> parameters = match_parameters(options.features, options.match, alignment);
+    if (suspect.points()) add_point_parameters(options.points, parameters);
     return {{"schema", "umbilic.match/1"},
             {"tool", tool_json()},
             {"inputs", {{"original", input_json(original)}, {"suspect", input_json(suspect)}}},
-            {"parameters", parameters_json(match_parameters(features, options, alignment))},
+            {"parameters", parameters_json(parameters)},
             {"alignment", alignment_json(alignment)},
             {"timing", timing_json(timing)}};
 }
 
-Json compare_json(const PreparedModel& original, const PreparedModel& suspect, const CompareOptions& options,
+Json compare_json(const PreparedShape& original, const PreparedShape& suspect, const CompareOptions& options,
                   const Comparison& comparison, const Timing& timing) {
     Timing stages = timing;
     stages.insert(stages.end(), comparison.timing.begin(), comparison.timing.end());
     return {{"schema", "umbilic.compare/1"},
             {"tool", tool_json()},
-            {"inputs", {{"original", input_json(original.model)}, {"suspect", input_json(suspect.model)}}},
+            {"inputs", {{"original", input_json(original)}, {"suspect", input_json(suspect)}}},
             {"parameters", parameters_json(compare_parameters(options, comparison))},
             {"alignment", alignment_json(comparison.alignment)},
             {"tests", tests_json(original, suspect, comparison.assessment)},

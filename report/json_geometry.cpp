@@ -3,6 +3,8 @@
 
 #include <umbilic/similarity/strong_test.h>
 
+#include <report/versions.h>
+
 namespace umbilic {
 
 namespace {
@@ -141,6 +143,17 @@ Json recognised_json(const RecognisedSurface& recognised) {
             {"parameters", elementary_json(recognised.kind, recognised.surface)}};
 }
 
+Json tool_json() {
+    const Versions used = versions();
+    return {{"name", "umbilic"}, {"version", used.umbilic}, {"commit", used.commit}, {"opencascade", used.opencascade}};
+}
+
+Json timing_json(const Timing& timing) {
+    Json json = Json::object();
+    for (const auto& [stage, seconds] : timing) json[stage] = number_json(seconds);
+    return json;
+}
+
 Vector2 native_parameters(const Face& face, double u, double v) {
     return {face.region.u_map().native(u), face.region.v_map().native(v)};
 }
@@ -149,10 +162,11 @@ Vector2 surface_parameters(const Face& face, double native_u, double native_v) {
     return {face.region.u_map().surface(native_u), face.region.v_map().surface(native_v)};
 }
 
-std::vector<LocatedUmbilic> isolated_umbilics(const PreparedModel& prepared) {
+std::vector<LocatedUmbilic> isolated_umbilics(const PreparedShape& shape) {
     std::vector<LocatedUmbilic> located;
-    for (const Umbilic* umbilic : umbilics_inside(prepared.features.umbilics)) {
-        located.push_back({&prepared.model.face(umbilic->at.face), umbilic});
+    if (!shape.model()) return located;
+    for (const Umbilic* umbilic : umbilics_inside(shape.model()->features.umbilics)) {
+        located.push_back({&shape.model()->model.face(umbilic->at.face), umbilic});
     }
     return located;
 }

@@ -4,7 +4,7 @@
 #include <complex>
 #include <vector>
 
-#include <umbilic/matching/prepared_model.h>
+#include <umbilic/matching/prepared_shape.h>
 
 #include <report/json.h>
 
@@ -26,14 +26,18 @@ struct LocatedUmbilic {
 };
 
 /// The isolated umbilics of a model inside its faces, in the order that UmbilicPair and StrongTest count them. The
-/// pointers live as long as the prepared model.
-std::vector<LocatedUmbilic> isolated_umbilics(const PreparedModel& prepared);
+/// pointers live as long as the prepared model. Measured points have none.
+std::vector<LocatedUmbilic> isolated_umbilics(const PreparedShape& shape);
 
 /// Parameters of a surface of this kind: "location", "axis", "x_axis", and those of "radius", "minor_radius" and
 /// "semi_angle" it has.
 Json elementary_json(SurfaceKind kind, const ElementarySurface& surface);
 /// Kind, parameters and deviation.
 Json recognised_json(const RecognisedSurface& recognised);
+
+/// What a result was computed with; seconds by stage.
+Json tool_json();
+Json timing_json(const Timing& timing);
 
 /// One isolated umbilic of a face.
 Json umbilic_json(const Face& face, const Umbilic& umbilic);

@@ -42,7 +42,7 @@ std::string curve(const char* name, const std::function<Complex(double)>& point)
 }
 
 /// Markers of one model; the representative first, its two equals under the threefold symmetry faintly.
-std::string markers(const PreparedModel& prepared, bool of_suspect, bool mirrored) {
+std::string markers(const PreparedShape& prepared, bool of_suspect, bool mirrored) {
     std::string out;
     for (const auto& [face, umbilic] : isolated_umbilics(prepared)) {
         if (!umbilic->kind.omega) continue;
@@ -119,7 +119,7 @@ std::string omega_mark(const OmegaMark& mark, Complex w, bool faint) {
 
 }  // namespace
 
-std::string omega_plane_svg(const PreparedModel& original, const PreparedModel& suspect, bool mirrored) {
+std::string omega_plane_svg(const PreparedShape& original, const PreparedShape& suspect, bool mirrored) {
     return open_plane("Umbilics of both models in the omega plane") + markers(original, false, false) +
            markers(suspect, true, mirrored) + "</svg>";
 }

@@ -5,15 +5,15 @@
 #include <string>
 #include <vector>
 
-#include <umbilic/matching/prepared_model.h>
+#include <umbilic/matching/prepared_shape.h>
 
 namespace umbilic {
 
 /// The omega plane (thesis 2.1.4, Fig. 6-4) as an SVG element: the dividing curves |omega| = 1, Gamma_1 and Gamma_2
-/// with the isolated umbilics of both models. All are seen from the outward side of their face, those of a mirrored
-/// suspect mirrored back, so that corresponding umbilics coincide. Umbilics without an omega (alpha = 0) are not in
-/// the picture.
-std::string omega_plane_svg(const PreparedModel& original, const PreparedModel& suspect, bool mirrored);
+/// with the isolated umbilics of both models (measured points have none). All are seen from the outward side of their
+/// face, those of a mirrored suspect mirrored back, so that corresponding umbilics coincide. Umbilics without an omega
+/// (alpha = 0) are not in the picture.
+std::string omega_plane_svg(const PreparedShape& original, const PreparedShape& suspect, bool mirrored);
 
 /// An umbilic in the plane.
 struct OmegaMark {

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include <occ_adapter/read_file.h>
+#include <point_files/write_ply.h>
 #include <umbilic/core/errors.h>
 
 #include <report/deviation_csv.h>
@@ -129,21 +130,23 @@ void check_report_folder(const std::string& folder) {
 }
 
 void write_report(const std::string& folder, const ReportInput& input, const Json& result, const Progress& progress) {
-    // An older report's aligned.step must not stand beside a result that has no pose.
-    write_folder(folder, {"aligned.step"}, [&](const auto& write, const fs::path& assembled) {
+    // An older report's aligned suspect must not stand beside a result that has no pose.
+    write_folder(folder, {"aligned.step", "aligned.ply"}, [&](const auto& write, const fs::path& assembled) {
         // Written in a child process, so it costs nothing beside the page.
         std::future<void> aligned;
-        if (input.comparison.alignment.status != AlignmentStatus::not_found) {
+        const bool posed = input.comparison.alignment.status != AlignmentStatus::not_found;
+        const SimilarityTransform& pose = input.comparison.alignment.original_suspect;
+        if (posed && input.suspect.points()) write("aligned.ply", ply_text(input.suspect.points()->cloud, pose));
+        if (posed && input.suspect.model()) {
             aligned = std::async(std::launch::async, [&] {
                 const std::string& suspect_file =
-                    input.suspect_file.empty() ? input.suspect.model.source.path : input.suspect_file;
-                write_transformed_step(suspect_file, input.comparison.alignment.original_suspect,
-                                       assembled / "aligned.step");
+                    input.suspect_file.empty() ? input.suspect.source().path : input.suspect_file;
+                write_transformed_step(suspect_file, pose, assembled / "aligned.step");
             });
         }
         write("report.html", report_html(input, progress.part(0.0, 0.7)));
         write("result.json", text(result) + "\n");
-        write("deviation.csv", deviation_csv(input.original.model, input.suspect.model, input.comparison.assessment));
+        write("deviation.csv", deviation_csv(input.original, input.suspect, input.comparison.assessment));
         if (aligned.valid()) {
             progress.report(0.75, "writing the aligned suspect");
             aligned.get();
@@ -157,6 +160,15 @@ void write_umbilics_report(const std::string& folder, const UmbilicsReportInput&
     write_folder(folder, {}, [&](const auto& write, const fs::path&) {
         write("report.html", umbilics_html(input, progress));
         write("umbilics.json", text(result) + "\n");
+        progress.report(1.0, "report written");
+    });
+}
+
+void write_fit_report(const std::string& folder, const FitReportInput& input, const Json& result,
+                      const Progress& progress) {
+    write_folder(folder, {}, [&](const auto& write, const fs::path&) {
+        write("report.html", fit_html(input, progress));
+        write("fit.json", text(result) + "\n");
         progress.report(1.0, "report written");
     });
 }

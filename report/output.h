@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include <report/fit_html.h>
 #include <report/html.h>
 #include <report/umbilics_html.h>
 
@@ -17,9 +18,9 @@ void write_file(const std::string& path, const std::string& contents);
 void check_report_folder(const std::string& folder);
 
 /// Makes the folder and writes report.html, result.json, deviation.csv and, if a pose was found, aligned.step (the
-/// suspect in that pose). They are assembled beside the folder and moved there at the end: an error or a cancel leaves
-/// nothing. Other files in the folder are left alone. `result` is the JSON of compare_json(). Throws NumericFailure,
-/// naming the file, if something cannot be written; Cancelled.
+/// suspect in that pose; aligned.ply if it is measured points). They are assembled beside the folder and moved there at
+/// the end: an error or a cancel leaves nothing. Other files in the folder are left alone. `result` is the JSON of
+/// compare_json(). Throws NumericFailure, naming the file, if something cannot be written; Cancelled.
 void write_report(const std::string& folder, const ReportInput& input, const Json& result,
                   const Progress& progress = {});
 
@@ -27,5 +28,9 @@ void write_report(const std::string& folder, const ReportInput& input, const Jso
 /// umbilics_json().
 void write_umbilics_report(const std::string& folder, const UmbilicsReportInput& input, const Json& result,
                            const Progress& progress = {});
+
+/// The same for the report on a fit: report.html and fit.json. `result` is the JSON of fit_json().
+void write_fit_report(const std::string& folder, const FitReportInput& input, const Json& result,
+                      const Progress& progress = {});
 
 }  // namespace umbilic

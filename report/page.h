@@ -9,6 +9,7 @@ namespace umbilic {
 
 std::string page_report();           ///< page/report.html, a Mustache template
 std::string page_umbilics();         ///< page/umbilics.html, a Mustache template
+std::string page_fit();              ///< page/fit.html, a Mustache template
 std::string page_style();            ///< page/report.css
 std::string page_stage();            ///< page/stage.js, what both viewers are built on
 std::string page_viewer();           ///< page/viewer.js

@@ -116,12 +116,21 @@ std::vector<Parameter> match_parameters(const FeatureOptions& features, const Ma
     return parameters;
 }
 
+void add_point_parameters(const PointFeatureOptions& options, std::vector<Parameter>& parameters) {
+    const PointFeatureOptions defaults;
+    parameters.push_back(constant("most_points", options.most_points, defaults.most_points, "1",
+                                  "points of a larger cloud that are used, chosen at random"));
+    parameters.push_back(constant("point_samples", options.samples, defaults.samples, "1",
+                                  "points of a cloud at which jets are fitted and distances are measured"));
+}
+
 std::vector<Parameter> compare_parameters(const CompareOptions& options, const Comparison& comparison) {
     MatchOptions match_options = options.match;
     if (!match_options.tolerance) match_options.tolerance = options.tolerances.distance;  // as compare() does
     auto parameters = match_parameters(options.features, match_options, comparison.alignment);
     parameters.push_back(constant("algorithm", options.algorithm, CompareOptions().algorithm, "1",
                                   "decision algorithm that gives the level of the verdict"));
+    if (comparison.assessment.measured) add_point_parameters(options.points, parameters);
     for (const Tolerance& tolerance : comparison.assessment.tolerances) {
         parameters.push_back(
             {tolerance.name, number_json(tolerance.value), tolerance.unit, tolerance.origin, tolerance.inequality});

@@ -22,6 +22,9 @@ struct Parameter {
 std::vector<Parameter> match_parameters(const FeatureOptions& features, const MatchOptions& options,
                                         const Alignment& alignment);
 
+/// Adds those of measured points.
+void add_point_parameters(const PointFeatureOptions& options, std::vector<Parameter>& parameters);
+
 /// Parameters of a whole comparison: those of the match, the decision and every tolerance of the tests.
 std::vector<Parameter> compare_parameters(const CompareOptions& options, const Comparison& comparison);
 

@@ -3,11 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
+#include <limits>
+#include <memory>
 
 #include <Eigen/Geometry>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
-#include <umbilic/differential/curvature.h>
+#include <umbilic/matching/score.h>
+#include <umbilic/matching/table_ground.h>
 
 #include <report/json.h>
 #include <report/json_geometry.h>
@@ -25,33 +29,37 @@ void move(SceneMesh& mesh, const SimilarityTransform& transform) {
 }
 
 /// Signed distances of the points from the original, positive on its outward side.
-std::vector<double> deviations(const PreparedModel& original, const std::vector<Vector3>& points) {
-    const std::vector<ClosestPoint> feet = original.tree.closest(points);
-    std::unordered_map<int, const Face*> faces;
-    for (const Face& face : original.model.faces) faces.emplace(face.number, &face);
+std::vector<double> deviations(const PreparedShape& original, const std::vector<Vector3>& points,
+                               const Progress& progress) {
+    std::unique_ptr<GroundSurface> ground;
+    if (original.model())
+        ground = std::make_unique<Ground>(*original.model());
+    else
+        ground = std::make_unique<TableGround>(original.points()->table);
     std::vector<double> values(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const Face& face = *faces.at(feet[i].at.face);
-        const Curvature frame = curvature(face.surface, feet[i].at.u, feet[i].at.v);
-        const Vector3 outward = face.reversed ? Vector3(-frame.normal) : frame.normal;
-        values[i] = std::copysign(feet[i].distance, (points[i] - feet[i].point).dot(outward));
-    }
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 256), [&](const auto& range) {
+        progress.check();
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            const GroundFoot foot = *ground->foot(points[i], std::numeric_limits<double>::infinity());
+            const Vector3 offset = points[i] - foot.point;
+            values[i] = std::copysign(foot.distance, offset.dot(foot.normal.value_or(offset)));
+        }
+    });
     return values;
 }
 
 /// Pose for the picture if none was found: beside the original, brought to its size.
-SimilarityTransform beside(const Model& original, const Model& suspect) {
+SimilarityTransform beside(const BoundingBox& original, const BoundingBox& suspect) {
     SimilarityTransform pose;
-    const double suspect_diagonal = suspect.box.diagonal();
-    pose.scale = suspect_diagonal > 0.0 ? original.box.diagonal() / suspect_diagonal : 1.0;
-    const Vector3 size = original.box.high - original.box.low;
-    const double step = 0.5 * size.x() + 0.6 * pose.scale * (suspect.box.high - suspect.box.low).x();
-    pose.translation =
-        original.box.center() + Vector3(step + 0.1 * size.norm(), 0.0, 0.0) - pose.scale * suspect.box.center();
+    const double suspect_diagonal = suspect.diagonal();
+    pose.scale = suspect_diagonal > 0.0 ? original.diagonal() / suspect_diagonal : 1.0;
+    const Vector3 size = original.high - original.low;
+    const double step = 0.5 * size.x() + 0.6 * pose.scale * (suspect.high - suspect.low).x();
+    pose.translation = original.center() + Vector3(step + 0.1 * size.norm(), 0.0, 0.0) - pose.scale * suspect.center();
     return pose;
 }
 
-void add_umbilics(const PreparedModel& prepared, bool of_suspect, const SimilarityTransform& pose,
+void add_umbilics(const PreparedShape& prepared, bool of_suspect, const SimilarityTransform& pose,
                   std::vector<SceneUmbilic>& umbilics) {
     int number = 0;
     for (const auto& [face, umbilic] : isolated_umbilics(prepared)) {
@@ -74,23 +82,25 @@ void add_umbilics(const PreparedModel& prepared, bool of_suspect, const Similari
 
 }  // namespace
 
-Scene make_scene(const PreparedModel& original, const std::vector<DisplayMesh>& original_meshes,
-                 const PreparedModel& suspect, const std::vector<DisplayMesh>& suspect_meshes,
+Scene make_scene(const PreparedShape& original, const std::vector<DisplayMesh>& original_meshes,
+                 const PreparedShape& suspect, const std::vector<DisplayMesh>& suspect_meshes,
                  const Comparison& comparison, const Progress& progress) {
+    const auto mesh_of = [](const PreparedShape& shape, const std::vector<DisplayMesh>& meshes) {
+        return shape.model() ? scene_mesh(shape.model()->model, meshes) : scene_mesh(shape.points()->cloud);
+    };
     Scene scene;
     progress.check();
     scene.posed = comparison.alignment.status != AlignmentStatus::not_found;
     const SimilarityTransform pose =
-        scene.posed ? comparison.alignment.original_suspect : beside(original.model, suspect.model);
-    scene.original = scene_mesh(original.model, original_meshes);
-    scene.suspect = scene_mesh(suspect.model, suspect_meshes);
+        scene.posed ? comparison.alignment.original_suspect : beside(original.box(), suspect.box());
+    scene.original = mesh_of(original, original_meshes);
+    scene.suspect = mesh_of(suspect, suspect_meshes);
     move(scene.suspect, pose);
     compute_normals(scene.original);
     compute_normals(scene.suspect);
     double largest = 0.0;
     if (scene.posed) {
-        progress.check();
-        scene.suspect.deviation = deviations(original, scene.suspect.points);
+        scene.suspect.deviation = deviations(original, scene.suspect.points, progress);
         for (const double value : scene.suspect.deviation) largest = std::max(largest, std::abs(value));
     }
     scene.scale = color_scale(largest, comparison.assessment.distance.tolerance);

@@ -23,7 +23,7 @@ struct SceneUmbilic {
 
 /// What the pictures show, in the frame and unit of the original.
 struct Scene {
-    SceneMesh original;
+    SceneMesh original;  ///< without triangles if it is a cloud of points
     SceneMesh suspect;
     /// False if no pose was found: then the suspect stands beside the original, brought to its size.
     bool posed = false;
@@ -31,10 +31,11 @@ struct Scene {
     ColorScale scale;
 };
 
-/// Brings the suspect's display meshes into the pose that was found and measures them against the original: the values
-/// are exact distances at the vertices, after long edges were split on the surface. Throws Cancelled.
-Scene make_scene(const PreparedModel& original, const std::vector<DisplayMesh>& original_meshes,
-                 const PreparedModel& suspect, const std::vector<DisplayMesh>& suspect_meshes,
+/// Brings the suspect's display meshes, or its points, into the pose that was found and measures them against the
+/// original: the values are exact distances at the vertices, after long edges of models were split on the surface, or
+/// distances from the jets of measured points. Display meshes are those of models. Throws Cancelled.
+Scene make_scene(const PreparedShape& original, const std::vector<DisplayMesh>& original_meshes,
+                 const PreparedShape& suspect, const std::vector<DisplayMesh>& suspect_meshes,
                  const Comparison& comparison, const Progress& progress = {});
 
 /// The scene for the page's viewer, as JSON: arrays of 32-bit little-endian numbers in base64.

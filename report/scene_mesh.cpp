@@ -100,6 +100,13 @@ SceneMesh scene_mesh(const Model& model, const std::vector<DisplayMesh>& meshes)
     return scene;
 }
 
+SceneMesh scene_mesh(const PointCloud& cloud) {
+    SceneMesh scene;
+    scene.points = cloud.points;
+    scene.triangles = cloud.triangles;
+    return scene;
+}
+
 void compute_normals(SceneMesh& mesh) {
     mesh.normals.assign(mesh.points.size(), Vector3::Zero());
     for (const auto& [a, b, c] : mesh.triangles) {

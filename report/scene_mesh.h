@@ -7,6 +7,7 @@
 
 #include <umbilic/model/display_mesh.h>
 #include <umbilic/model/model.h>
+#include <umbilic/model/point_cloud.h>
 
 #include <report/json.h>
 
@@ -28,6 +29,9 @@ struct SceneMesh {
 
 /// Joins the meshes of all faces after splitting long edges at points of the surfaces; without normals.
 SceneMesh scene_mesh(const Model& model, const std::vector<DisplayMesh>& meshes);
+
+/// The points and triangles of a cloud or mesh.
+SceneMesh scene_mesh(const PointCloud& cloud);
 
 /// Fills in one normal per point, the mean of its triangles' by area.
 void compute_normals(SceneMesh& mesh);

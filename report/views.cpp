@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 
 #include <tbb/parallel_for.h>
@@ -33,13 +34,28 @@ constexpr double node_radius = 2.6;
 constexpr Color line_color = {0.80f, 0.47f, 0.65f};
 constexpr double line_width = 2.6, stroke_share = 0.03;
 
+/// Triangles along a side of a fitted surface.
+constexpr int surface_pieces = 80;
+
 BoundingBox box_of(const std::vector<Vector3>& points) {
     BoundingBox box;
     for (const Vector3& point : points) box.add(point);
     return box;
 }
 
+/// Radius in pixels of the points of a cloud: dense clouds close up to a surface, sparse ones stay visible.
+double point_radius(std::size_t count) {
+    constexpr double closing = 0.5, least = 0.8, greatest = 3.0;
+    return std::clamp(closing * std::sqrt(static_cast<double>(width) * height / static_cast<double>(count)), least,
+                      greatest);
+}
+
 void draw(Picture& picture, const SceneMesh& mesh, const std::vector<Color>& colors) {
+    if (mesh.triangles.empty()) {
+        const double radius = point_radius(mesh.points.size());
+        for (std::size_t i = 0; i < mesh.points.size(); ++i) picture.add_disc(mesh.points[i], colors[i], radius);
+        return;
+    }
     picture.add_surface(mesh.points, mesh.normals, mesh.triangles, colors);
     for (const auto& [a, b] : mesh.edges) {
         const bool on_dark = colors[a][0] + colors[a][1] + colors[a][2] < dark_surface;
@@ -162,6 +178,33 @@ std::vector<View> umbilics_views(const SceneMesh& mesh, const std::vector<FaceUm
             }
         }
         return View{sides[i].first, picture.png()};
+    });
+}
+
+std::vector<View> residual_views(const NurbsSurface& surface, const std::vector<ParametrisedPoint>& points,
+                                 const std::vector<double>& distances, const ColorScale& scale) {
+    SceneMesh mesh;
+    const ParameterBox domain = surface.domain();
+    for (int i = 0; i <= surface_pieces; ++i)
+        for (int j = 0; j <= surface_pieces; ++j)
+            mesh.points.push_back(surface.value(domain.u.low + domain.u.length() * i / surface_pieces,
+                                                domain.v.low + domain.v.length() * j / surface_pieces));
+    for (int i = 0; i < surface_pieces; ++i)
+        for (int j = 0; j < surface_pieces; ++j) {
+            const int a = i * (surface_pieces + 1) + j, b = a + surface_pieces + 1;
+            mesh.triangles.insert(mesh.triangles.end(), {{a, b, b + 1}, {a, b + 1, a + 1}});
+        }
+    compute_normals(mesh);
+    BoundingBox box = box_of(mesh.points);
+    for (const ParametrisedPoint& p : points) box.add(p.point);
+    const double radius = point_radius(points.size());
+    const auto sides = four_sides();
+    return drawn(sides.size(), [&](std::size_t k) {
+        Picture picture(sides[k].second, box, width, height);
+        draw(picture, mesh, grey_for(mesh));
+        for (std::size_t i = 0; i < points.size(); ++i)
+            picture.add_disc(points[i].point, scale.of_signed(distances[i]), radius);
+        return View{sides[k].first, picture.png()};
     });
 }
 

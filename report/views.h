@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <umbilic/points/least_squares_surface.h>
+
 #include <report/scene.h>
 
 namespace umbilic {
@@ -25,6 +27,10 @@ std::vector<View> test_views(const Scene& scene, const Assessment& assessment);
 
 /// A model with its isolated umbilics, lines of umbilics and the directions of lines of curvature, from four sides.
 std::vector<View> umbilics_views(const SceneMesh& mesh, const std::vector<FaceUmbilics>& umbilics);
+
+/// A fitted surface with its points, coloured by their signed distance, from four sides.
+std::vector<View> residual_views(const NurbsSurface& surface, const std::vector<ParametrisedPoint>& points,
+                                 const std::vector<double>& distances, const ColorScale& scale);
 
 /// Colours of the nodes in test_views().
 extern const Color color_within;

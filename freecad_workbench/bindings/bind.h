@@ -12,5 +12,6 @@ void bind_umbilics(pybind11::module_& module);
 void bind_wireframe(pybind11::module_& module);
 void bind_curves(pybind11::module_& module);
 void bind_comparison(pybind11::module_& module);
+void bind_points(pybind11::module_& module);
 
 }  // namespace umbilic::python

@@ -21,7 +21,7 @@
 #include "arrays.h"
 #include "comparison_options.h"
 #include "interruptible.h"
-#include "loaded_model.h"
+#include "loaded_shape.h"
 
 namespace umbilic::python {
 
@@ -29,67 +29,63 @@ namespace py = pybind11;
 
 namespace {
 
-using ModelPointer = std::shared_ptr<const LoadedModel>;
-
 /// A finished comparison with everything its results refer to.
 struct FinishedComparison {
-    ModelPointer original;
-    ModelPointer suspect;
+    LoadedShape original;
+    LoadedShape suspect;
     CompareOptions options;
-    PreparedModel prepared_original;
-    PreparedModel prepared_suspect;
     Comparison comparison;
-    std::vector<std::pair<std::string, double>> timing;
+    Timing timing;
 };
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-PreparedModel prepare_timed(const LoadedModel& loaded, const FeatureOptions& options, const char* stage,
-                            std::vector<std::pair<std::string, double>>& timing, const Progress& progress) {
+LoadedShape prepare_timed(const ShapePointer& source, const CompareOptions& options, const char* stage, Timing& timing,
+                          const Progress& progress) {
     const auto start = std::chrono::steady_clock::now();
-    PreparedModel prepared = prepare(loaded.file.model, options, progress);
+    LoadedShape shape(source, options, progress);
     timing.emplace_back(stage, seconds_since(start));
-    return prepared;
+    return shape;
 }
 
-std::shared_ptr<FinishedComparison> compare_models(ModelPointer original, ModelPointer suspect,
+std::shared_ptr<FinishedComparison> compare_shapes(const ShapePointer& original, const ShapePointer& suspect,
                                                    const py::dict& keywords, const py::object& progress) {
     const CompareOptions options = comparison_options(keywords);
     return run_interruptible(progress, [&](const Progress& handle) {
-        std::vector<std::pair<std::string, double>> timing;
-        PreparedModel of_original =
-            prepare_timed(*original, options.features, "features of the original", timing, handle.part(0.0, 0.2));
-        PreparedModel of_suspect =
-            prepare_timed(*suspect, options.features, "features of the suspect", timing, handle.part(0.2, 0.4));
-        Comparison comparison = compare(of_original, of_suspect, options, handle.part(0.4, 1.0));
-        return std::make_shared<FinishedComparison>(FinishedComparison{original, suspect, options,
-                                                                       std::move(of_original), std::move(of_suspect),
-                                                                       std::move(comparison), std::move(timing)});
+        Timing timing;
+        LoadedShape first = prepare_timed(original, options, "features of the original", timing, handle.part(0.0, 0.2));
+        LoadedShape second = prepare_timed(suspect, options, "features of the suspect", timing, handle.part(0.2, 0.4));
+        Comparison comparison = compare(first.prepared(), second.prepared(), options, handle.part(0.4, 1.0));
+        return std::make_shared<FinishedComparison>(
+            FinishedComparison{std::move(first), std::move(second), options, std::move(comparison), std::move(timing)});
     });
 }
 
-std::string match_models(ModelPointer original, ModelPointer suspect, const py::dict& keywords,
+std::string match_shapes(const ShapePointer& original, const ShapePointer& suspect, const py::dict& keywords,
                          const py::object& progress) {
     const CompareOptions options = comparison_options(keywords);
     return run_interruptible(progress, [&](const Progress& handle) {
-        std::vector<std::pair<std::string, double>> timing;
-        const PreparedModel of_original =
-            prepare_timed(*original, options.features, "features of the original", timing, handle.part(0.0, 0.25));
-        const PreparedModel of_suspect =
-            prepare_timed(*suspect, options.features, "features of the suspect", timing, handle.part(0.25, 0.5));
+        Timing timing;
+        const LoadedShape first =
+            prepare_timed(original, options, "features of the original", timing, handle.part(0.0, 0.25));
+        const LoadedShape second =
+            prepare_timed(suspect, options, "features of the suspect", timing, handle.part(0.25, 0.5));
         const auto start = std::chrono::steady_clock::now();
-        const Alignment alignment = match(of_original, of_suspect, options.match, handle.part(0.5, 1.0));
+        const Alignment alignment = match(first.prepared(), second.prepared(), options.match, handle.part(0.5, 1.0));
         timing.emplace_back("match", seconds_since(start));
-        return text(
-            match_json(original->file.model, suspect->file.model, options.features, options.match, alignment, timing));
+        return text(match_json(first.prepared(), second.prepared(), options, alignment, timing));
     });
 }
 
+Json comparison_result(const FinishedComparison& finished) {
+    return compare_json(finished.original.prepared(), finished.suspect.prepared(), finished.options,
+                        finished.comparison, finished.timing);
+}
+
 std::string comparison_json(const FinishedComparison& finished) {
-    return text(compare_json(finished.prepared_original, finished.prepared_suspect, finished.options,
-                             finished.comparison, finished.timing));
+    return text(comparison_result(finished));
 }
 
 py::dict mesh_columns(const SceneMesh& mesh) {
@@ -105,8 +101,8 @@ py::dict mesh_columns(const SceneMesh& mesh) {
 /// What the pictures show, as the report does, in the frame and unit of the original.
 py::dict scene(const FinishedComparison& finished, const py::object& progress) {
     const Scene scene = run_interruptible(progress, [&](const Progress& handle) {
-        return make_scene(finished.prepared_original, finished.original->file.meshes, finished.prepared_suspect,
-                          finished.suspect->file.meshes, finished.comparison, handle);
+        return make_scene(finished.original.prepared(), finished.original.meshes(), finished.suspect.prepared(),
+                          finished.suspect.meshes(), finished.comparison, handle);
     });
     py::list umbilics;
     for (const SceneUmbilic& umbilic : scene.umbilics) {
@@ -132,19 +128,16 @@ py::dict scene(const FinishedComparison& finished, const py::object& progress) {
 std::string write_report_folder(const FinishedComparison& finished, const std::string& folder, const std::string& call,
                                 const py::object& progress) {
     run_interruptible(progress, [&](const Progress& handle) {
-        const ReportInput input{.original = finished.prepared_original,
-                                .suspect = finished.prepared_suspect,
-                                .original_meshes = finished.original->file.meshes,
-                                .suspect_meshes = finished.suspect->file.meshes,
+        const ReportInput input{.original = finished.original.prepared(),
+                                .suspect = finished.suspect.prepared(),
+                                .original_meshes = finished.original.meshes(),
+                                .suspect_meshes = finished.suspect.meshes(),
                                 .options = finished.options,
                                 .comparison = finished.comparison,
                                 .timing = finished.timing,
                                 .command_line = call,
-                                .suspect_file = finished.suspect->path};
-        write_report(folder, input,
-                     compare_json(finished.prepared_original, finished.prepared_suspect, finished.options,
-                                  finished.comparison, finished.timing),
-                     handle);
+                                .suspect_file = finished.suspect.path()};
+        write_report(folder, input, comparison_result(finished), handle);
         return true;
     });
     return (std::filesystem::path(folder) / "report.html").string();
@@ -176,11 +169,11 @@ void bind_comparison(py::module_& module) {
         .def("json", &comparison_json)
         .def("scene", &scene, py::arg("progress"))
         .def("nodes", &nodes, py::arg("suspect"));
-    module.def("compare", &compare_models, py::arg("original"), py::arg("suspect"), py::arg("options"),
+    module.def("compare", &compare_shapes, py::arg("original"), py::arg("suspect"), py::arg("options"),
                py::arg("progress"));
     module.def("write_report", &write_report_folder, py::arg("comparison"), py::arg("folder"), py::arg("call"),
                py::arg("progress"));
-    module.def("match_json", &match_models, py::arg("original"), py::arg("suspect"), py::arg("options"),
+    module.def("match_json", &match_shapes, py::arg("original"), py::arg("suspect"), py::arg("options"),
                py::arg("progress"));
 }
 

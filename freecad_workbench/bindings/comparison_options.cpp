@@ -145,7 +145,15 @@ CompareOptions comparison_options(const py::dict& keywords) {
         } else if (name == "cell") {
             options.tolerances.cell = positive(name, value);
         } else if (name == "seed") {
-            options.features.samples.seed = value_of<std::uint64_t>(name, value, "a whole number from 0");
+            options.features.samples.seed = options.points.seed =
+                value_of<std::uint64_t>(name, value, "a whole number from 0");
+        } else if (name == "most_points" || name == "point_samples") {
+            const int number = value_of<int>(name, value, "a whole number from 40");
+            if (number < fewest_points) throw InvalidInput(name + ": expected a whole number from 40");
+            if (name == "most_points")
+                options.points.most_points = static_cast<std::size_t>(number);
+            else
+                options.points.samples = number;
         } else {
             throw InvalidInput("unknown option " + name);
         }

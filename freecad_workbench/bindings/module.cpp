@@ -8,5 +8,6 @@ PYBIND11_MODULE(_native, module) {
     umbilic::python::bind_umbilics(module);
     umbilic::python::bind_wireframe(module);
     umbilic::python::bind_curves(module);
+    umbilic::python::bind_points(module);
     umbilic::python::bind_comparison(module);
 }

@@ -5,7 +5,8 @@
     result = umbilic.compare("bottle.step", "suspect.igs")
     print(result.answer.text)
 
-Models are paths (STEP, IGES, BREP), FreeCAD shapes (`Part.Shape`) or models read before (`umbilic.read`). Lengths are
+Models are paths (STEP, IGES, BREP), FreeCAD shapes (`Part.Shape`) or models read before (`umbilic.read`); measured points
+are paths (xyz, csv, ply, stl, obj), arrays (n, 3), or `Mesh.Mesh` and `Points.Points` of FreeCAD. Lengths are
 millimetres, angles radians, curvatures 1/mm with the sign kappa = -II/I. Long calls release the GIL and take
 `progress=callable(fraction, text)`; they stop with `umbilic.Cancelled` when it returns False. The package needs neither
 FreeCAD nor a window.
@@ -22,7 +23,8 @@ except ImportError as error:
 from ._native import Cancelled, Error, InvalidInput, NumericFailure, Unsupported
 from .comparisons import Alignment, Answer, Comparison, Match, Mesh, Overlay, Verdict, compare, match, report
 from .curves import Curve, Curves, geodesic, line_of_curvature, project
-from .models import Model, ShapeData, info, read
+from .fits import Fit, fit
+from .models import Model, Points, ShapeData, info, points, read
 from .umbilical_points import UmbilicMarks, Umbilics, certificate_words, type_words, umbilics
 from .wireframes import Wireframe, wireframe
 
@@ -34,12 +36,14 @@ __all__ = [
     "Curve",
     "Curves",
     "Error",
+    "Fit",
     "InvalidInput",
     "Match",
     "Mesh",
     "Model",
     "NumericFailure",
     "Overlay",
+    "Points",
     "ShapeData",
     "UmbilicMarks",
     "Umbilics",
@@ -48,10 +52,12 @@ __all__ = [
     "Wireframe",
     "certificate_words",
     "compare",
+    "fit",
     "geodesic",
     "info",
     "line_of_curvature",
     "match",
+    "points",
     "project",
     "read",
     "report",

@@ -7,12 +7,12 @@ import copy
 import json
 import os
 from dataclasses import dataclass
-from typing import Any, Dict, Optional
+from typing import Any, Dict, Optional, Union
 
 import numpy as np
 
 from . import _native
-from .models import READING_SECONDS, Model, ModelLike, Progress, part_of, read
+from .models import READING_SECONDS, Model, Points, Progress, ShapeLike, part_of, read
 from .umbilical_points import UmbilicMarks
 
 
@@ -138,7 +138,7 @@ class Match:
 class Comparison:
     """Result of `compare`. Attributes are the main numbers; `to_dict` holds everything."""
 
-    def __init__(self, native: Any, original: Model, suspect: Model, options: Dict[str, Any]):
+    def __init__(self, native: Any, original: Union[Model, Points], suspect: Union[Model, Points], options: Dict[str, Any]):
         self.native = native
         self.original = original
         self.suspect = suspect
@@ -220,8 +220,8 @@ class Comparison:
 
 
 def match(
-    original: ModelLike,
-    suspect: ModelLike,
+    original: ShapeLike,
+    suspect: ShapeLike,
     *,
     seconds: float = READING_SECONDS,
     progress: Progress = None,
@@ -235,8 +235,8 @@ def match(
 
 
 def compare(
-    original: ModelLike,
-    suspect: ModelLike,
+    original: ShapeLike,
+    suspect: ShapeLike,
     *,
     seconds: float = READING_SECONDS,
     progress: Progress = None,
@@ -244,9 +244,9 @@ def compare(
 ) -> Comparison:
     """Tells whether the suspect, or a piece of it, is a copy of the original.
 
-    `seconds` limits the reading of each model. Options, all optional, named as on the command line:
+    Either is what `read` takes; measured points as the original need points as the suspect. `seconds` limits the reading of each model. Options, all optional, named as on the command line:
 
-    method            "auto", "umbilics", "moments", "curvature" or "kh"
+    method            "auto", "umbilics", "moments", "curvature" or "kh"; "points" of measured points
     scale             "auto", "fixed" (it is 1) or (low, high)
     scale_search      "golden" (section) or "brent": how "kh" searches a scale that is not fixed
     mirror            "auto" or "never"
@@ -259,6 +259,8 @@ def compare(
     direction         tolerance of principal directions, radians
     umbilic_distance  tolerance of the strong test, mm of the original
     cell              side of a cell of the local similarity, relative to a face's domain
+    most_points       points of a larger cloud that are used, chosen at random
+    point_samples     points of a cloud at which it is measured
     seed              shifts the sampling, a whole number from 0
 
     Raises InvalidInput (a model cannot be read, an option is unknown or out of range), NumericFailure, Cancelled.
@@ -273,7 +275,7 @@ def report(comparison: Comparison, directory: "str | os.PathLike[str]", *, progr
     """Writes the report of a comparison into a folder, which is made, and returns the path of its report.html.
 
     The folder holds report.html (complete in itself), result.json, deviation.csv and, if a pose was found,
-    aligned.step. Raises NumericFailure if something cannot be written, and Cancelled; then nothing was.
+    aligned.step (aligned.ply of measured points). Raises NumericFailure if something cannot be written, and Cancelled; then nothing was.
     """
     inputs = comparison.to_dict()["inputs"]
     words = [repr(inputs[which]["path"]) for which in ("original", "suspect")]

@@ -12,7 +12,7 @@ from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from . import _native
-from .models import READING_SECONDS, ModelLike, Progress, part_of, read
+from .models import READING_SECONDS, ModelLike, Progress, part_of, read_model
 
 FAMILIES = ("maximum", "minimum")
 
@@ -128,7 +128,7 @@ def line_of_curvature(
     """
     if family not in FAMILIES + ("both",):
         raise _native.InvalidInput(f'family: must be "maximum", "minimum" or "both", not "{family}"')
-    model = read(source, seconds=seconds, progress=part_of(progress, 0.0, 0.8))
+    model = read_model(source, seconds=seconds, progress=part_of(progress, 0.0, 0.8))
     return Curves(
         json.loads(
             _native.lines_of_curvature_json(
@@ -167,7 +167,7 @@ def geodesic(
     if direction is not None and length is None:
         raise _native.InvalidInput("geodesic: direction needs length=mm")
     _positive("longest", longest)
-    model = read(source, seconds=seconds, progress=part_of(progress, 0.0, 0.3))
+    model = read_model(source, seconds=seconds, progress=part_of(progress, 0.0, 0.3))
     return Curves(
         json.loads(
             _native.geodesics_json(
@@ -216,7 +216,7 @@ def project(
     projection ends at the border of `onto` or at a centre of curvature: that is no error. Raises InvalidInput,
     NumericFailure, Cancelled.
     """
-    target = read(onto, seconds=seconds, progress=part_of(progress, 0.0, 0.3))
+    target = read_model(onto, seconds=seconds, progress=part_of(progress, 0.0, 0.3))
     rest = part_of(progress, 0.6, 1.0)
     if start is None:
         curves: List[np.ndarray]
@@ -243,7 +243,7 @@ def project(
         raise _native.InvalidInput("project: start needs direction=(x, y, z) with length=mm, or to=(u, v)")
     if to is not None and family != "geodesic":
         raise _native.InvalidInput("project: only a geodesic is given by its ends")
-    model = read(curve, seconds=seconds, progress=part_of(progress, 0.3, 0.6))
+    model = read_model(curve, seconds=seconds, progress=part_of(progress, 0.3, 0.6))
     found = _native.project_started_json(
         model.native,
         face,

@@ -12,7 +12,7 @@ from typing import Any, Dict, List, Optional
 import numpy as np
 
 from . import _native
-from .models import READING_SECONDS, ModelLike, Progress, part_of, read
+from .models import READING_SECONDS, ModelLike, Progress, part_of, read_model
 
 
 @dataclass(frozen=True)
@@ -133,6 +133,6 @@ def umbilics(
     "non-generic", with the types it may have as "neighbours". Raises InvalidInput if it is negative, the model cannot be
     read or has no such face, and Cancelled.
     """
-    model = read(source, seconds=seconds, progress=part_of(progress, 0.0, 0.1))
+    model = read_model(source, seconds=seconds, progress=part_of(progress, 0.0, 0.1))
     found = _native.umbilics_json(model.native, face, tolerance, accuracy, part_of(progress, 0.1, 1.0))
     return Umbilics(json.loads(found))

@@ -11,7 +11,7 @@ from typing import Any, Dict, List, Optional
 import numpy as np
 
 from . import _native
-from .models import READING_SECONDS, ModelLike, Progress, part_of, read
+from .models import READING_SECONDS, ModelLike, Progress, part_of, read_model
 
 EDGE_KINDS = ("maximum", "minimum", "geodesic", "boundary")
 """"maximum" and "minimum" are parts of lines of curvature, "geodesic" joins nodes they leave alone."""
@@ -85,6 +85,6 @@ def wireframe(
     model's area (default 0.05). A face that cannot be meshed says "why". Raises InvalidInput if the model cannot be
     read, has no such face, or a length is not finite and positive, and Cancelled.
     """
-    model = read(source, seconds=seconds, progress=part_of(progress, 0.0, 0.1))
+    model = read_model(source, seconds=seconds, progress=part_of(progress, 0.0, 0.1))
     found = _native.wireframe_json(model.native, face, step, relative_step, part_of(progress, 0.1, 1.0))
     return Wireframe(json.loads(found))

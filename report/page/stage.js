@@ -40,6 +40,16 @@ function makeStage(figure, size) {
     return new THREE.LineSegments(edges, new THREE.LineBasicMaterial({ color: 0x30363d, transparent: true, opacity: 0.8 }));
   }
 
+  /** A mesh, or a cloud of points where it has no triangles. */
+  function shapeOf(mesh, geometry, material) {
+    if (mesh.triangles) return new THREE.Mesh(geometry, material);
+    geometry.setIndex(null);
+    return new THREE.Points(geometry, new THREE.PointsMaterial({
+      size: 3 * (window.devicePixelRatio || 1), sizeAttenuation: false, color: material.color,
+      vertexColors: material.vertexColors, transparent: material.transparent, opacity: material.opacity
+    }));
+  }
+
   /** The number of the face that a triangle of a mesh belongs to. */
   function faceAt(mesh, triangle) {
     const faces = unpack(mesh.faces, Uint32Array);
@@ -85,6 +95,7 @@ function makeStage(figure, size) {
   }
 
   const ray = new THREE.Raycaster();
+  ray.params.Points.threshold = size / 150;
   function aim(event) {
     const border = canvas.getBoundingClientRect();
     const x = event.clientX - border.left, y = event.clientY - border.top;
@@ -109,5 +120,5 @@ function makeStage(figure, size) {
 
   controls.addEventListener('change', render);
   window.addEventListener('resize', resize);
-  return { world, canvas, camera, unpack, geometryOf, edgesOf, faceAt, render, look, resize, describe, aim, ray };
+  return { world, canvas, camera, unpack, geometryOf, edgesOf, shapeOf, faceAt, render, look, resize, describe, aim, ray };
 }

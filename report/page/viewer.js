@@ -7,7 +7,7 @@
   const figure = document.querySelector('.viewer');
   const stage = makeStage(figure, scene.diagonal || 1);
   if (!stage) return;
-  const { world, canvas, camera, unpack, geometryOf, edgesOf, render } = stage;
+  const { world, canvas, camera, unpack, geometryOf, edgesOf, shapeOf, render } = stage;
   const size = scene.diagonal || 1;
 
   function colorsOf(deviation, table, low, high) {
@@ -30,7 +30,7 @@
     coloring.signed = colorsOf(deviation, scene.colors.signed, -scene.range, scene.range);
     suspectGeometry.setAttribute('color', coloring.size);
   }
-  const suspect = new THREE.Mesh(suspectGeometry, new THREE.MeshPhongMaterial({
+  const suspect = shapeOf(scene.suspect, suspectGeometry, new THREE.MeshPhongMaterial({
     specular: 0x4a4a4a, shininess: 18,
     color: scene.posed ? 0xffffff : 0xc8a98a,
     vertexColors: scene.posed ? THREE.VertexColors : THREE.NoColors,
@@ -40,7 +40,7 @@
 
   // The original, translucent where both lie on each other.
   const originalGeometry = geometryOf(scene.original);
-  const original = new THREE.Mesh(originalGeometry, new THREE.MeshLambertMaterial({
+  const original = shapeOf(scene.original, originalGeometry, new THREE.MeshLambertMaterial({
     color: 0x9db4c8, side: THREE.DoubleSide, transparent: scene.posed, opacity: scene.posed ? 0.35 : 1,
     depthWrite: !scene.posed, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 2
   }));
@@ -102,15 +102,16 @@
 
   function nameOf(hit) {
     if (hit.object.userData.text) return hit.object.userData.text;
-    if (hit.object === original) return 'Original, face ' + stage.faceAt(scene.original, hit.faceIndex);
-    const text = 'Suspect, face ' + stage.faceAt(scene.suspect, hit.faceIndex);
+    const placeOn = mesh => mesh.faces ? ', face ' + stage.faceAt(mesh, hit.faceIndex) : '';
+    if (hit.object === original) return 'Original' + placeOn(scene.original);
+    const text = 'Suspect' + placeOn(scene.suspect);
     if (!scene.posed) return text;
-    const corners = [hit.face.a, hit.face.b, hit.face.c];
+    const corners = hit.face ? [hit.face.a, hit.face.b, hit.face.c] : [hit.index];
     const nearest = corners.reduce((best, i) => {
       const p = new THREE.Vector3().fromBufferAttribute(suspectGeometry.getAttribute('position'), i);
       const distance = p.distanceTo(hit.point);
       return distance < best.distance ? { i: i, distance: distance } : best;
-    }, { i: hit.face.a, distance: Infinity });
+    }, { i: corners[0], distance: Infinity });
     return text + ', deviation ' + deviation[nearest.i].toPrecision(3) + ' mm';
   }
 

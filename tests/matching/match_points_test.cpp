@@ -14,26 +14,9 @@
 namespace umbilic {
 namespace {
 
-/// `count` points of a model, the nearest ones around a corner if it is a piece, moved by the inverse of `truth`, with
-/// noise in the model's unit.
 PointCloud scan(const Model& model, int count, double coverage, double noise, const SimilarityTransform& truth,
                 unsigned seed) {
-    std::mt19937 random(seed);
-    std::vector<AreaSample> samples = area_samples(model, {.count = 12000, .seed = seed});
-    std::shuffle(samples.begin(), samples.end(), random);
-    samples.resize(count);
-    const Vector3 centre = samples.front().curvature.point;
-    std::sort(samples.begin(), samples.end(), [&](const AreaSample& a, const AreaSample& b) {
-        return (a.curvature.point - centre).squaredNorm() < (b.curvature.point - centre).squaredNorm();
-    });
-    samples.resize(static_cast<std::size_t>(coverage * count));
-    std::normal_distribution<double> normal(0.0, 1.0);
-    PointCloud cloud;
-    for (const AreaSample& sample : samples) {
-        const Vector3 error(normal(random), normal(random), normal(random));
-        cloud.points.push_back(truth.inverse().apply(sample.curvature.point + noise * error));
-    }
-    return cloud;
+    return support::scan_of(model, {.points = count, .coverage = coverage, .noise = noise}, truth, seed);
 }
 
 /// Greatest distance between where two poses take the points, relative to the size.

@@ -33,7 +33,7 @@ std::vector<std::vector<std::string>> rows_of(const std::string& csv) {
 
 TEST(DeviationCsv, HoldsEveryNodeOfBothModels) {
     const auto made = made_comparison();
-    const auto rows = rows_of(deviation_csv(made->original_model, made->suspect_model, made->comparison.assessment));
+    const auto rows = rows_of(deviation_csv(*made->original, *made->suspect, made->comparison.assessment));
     const auto& forward = made->comparison.assessment.suspect_on_original.nodes;
     const auto& backward = made->comparison.assessment.original_on_suspect.nodes;
     ASSERT_EQ(rows.size(), 1 + forward.size() + backward.size());
@@ -51,8 +51,7 @@ TEST(DeviationCsv, HoldsEveryNodeOfBothModels) {
 
 TEST(DeviationCsv, IsAHeadingAloneWithoutAPose) {
     const auto made = made_comparison_without_pose();
-    EXPECT_EQ(rows_of(deviation_csv(made->original_model, made->suspect_model, made->comparison.assessment)).size(),
-              1u);
+    EXPECT_EQ(rows_of(deviation_csv(*made->original, *made->suspect, made->comparison.assessment)).size(), 1u);
 }
 
 }  // namespace

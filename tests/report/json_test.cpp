@@ -313,8 +313,8 @@ TEST(Json, WithoutAPoseItsNumbersAreNull) {
 
 TEST(Json, Match) {
     const auto made = made_comparison();
-    const Json json = match_json(made->original_model, made->suspect_model, made->options.features, made->options.match,
-                                 made->comparison.alignment, made->timing);
+    const Json json =
+        match_json(*made->original, *made->suspect, made->options, made->comparison.alignment, made->timing);
     EXPECT_EQ(json.at("schema"), "umbilic.match/1");
     expect_keys(json, {{"inputs/original", "object"},
                        {"inputs/suspect", "object"},

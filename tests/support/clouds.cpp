@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "clouds.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
+
+#include <umbilic/differential/area_samples.h>
 
 namespace umbilic::support {
 
@@ -49,6 +52,26 @@ PointCloud torus_cloud(int count, double major, double minor, double noise, unsi
         cloud.points.emplace_back(around * std::cos(u), around * std::sin(u), minor * std::sin(v));
     }
     add_noise(cloud, noise, random);
+    return cloud;
+}
+
+PointCloud scan_of(const Model& model, const ScanKind& kind, const SimilarityTransform& model_scan, unsigned seed) {
+    std::mt19937 random(seed);
+    std::vector<Vector3> points;
+    for (const AreaSample& sample : area_samples(model, {.count = 6 * kind.points, .seed = seed}))
+        points.push_back(sample.curvature.point);
+    std::shuffle(points.begin(), points.end(), random);
+    points.resize(std::min<std::size_t>(points.size(), kind.points));
+    const Vector3 centre = points.front();
+    std::sort(points.begin(), points.end(), [&](const Vector3& a, const Vector3& b) {
+        return (a - centre).squaredNorm() < (b - centre).squaredNorm();
+    });
+    points.resize(static_cast<std::size_t>(kind.coverage * static_cast<double>(points.size())));
+    PointCloud cloud;
+    cloud.points = std::move(points);
+    add_noise(cloud, kind.noise, random);
+    const SimilarityTransform scan_model = model_scan.inverse();
+    for (Vector3& p : cloud.points) p = scan_model.apply(p);
     return cloud;
 }
 

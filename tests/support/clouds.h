@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include <umbilic/core/similarity_transform.h>
 #include <umbilic/model/point_cloud.h>
 #include <umbilic/nurbs/nurbs_surface.h>
 
@@ -17,6 +18,15 @@ PointCloud sphere_cloud(int count, double radius, double noise, unsigned seed);
 
 /// Points uniform by area on a torus about the z axis, with Gaussian noise.
 PointCloud torus_cloud(int count, double major, double minor, double noise, unsigned seed);
+
+struct ScanKind {
+    int points = 2000;
+    double coverage = 1.0;  ///< share of the points that is left: those nearest to a random one
+    double noise = 0.0;     ///< standard deviation in every coordinate, mm of the model
+};
+
+/// Points uniform by area on a model with Gaussian noise, moved by the inverse of `model_scan`.
+PointCloud scan_of(const Model& model, const ScanKind& kind, const SimilarityTransform& model_scan, unsigned seed);
 
 /// Mesh of n x n vertices over the parameters of a surface.
 PointCloud mesh_of(const NurbsSurface& surface, int n);

@@ -37,8 +37,9 @@ struct Alignment {
     double tolerance = 0.0;  ///< mm of the original: distance within which a sample counts as lying on the other model
     double rms = 0.0;
     double max = 0.0;
-    double relative_max = 0.0;                    ///< max / sqrt(area of the original), the measure of the thesis
-    double suspect_coverage = 0.0;                ///< share of the suspect's area that lies on the original
+    double relative_max = 0.0;      ///< max / sqrt(area of the original), the measure of the thesis
+    double suspect_coverage = 0.0;  ///< share of the suspect's area that lies on the original
+    double scale_deviation = 0.0;  ///< standard deviation of log(scale) that noise leaves; 0 where it was not estimated
     double original_coverage = 0.0;               ///< share of the original's area that the suspect covers
     std::vector<PoseCandidate> runners_up;        ///< other poses, best first
     std::vector<SimilarityTransform> symmetries;  ///< poses that fit equally well: composed with the inverse of the

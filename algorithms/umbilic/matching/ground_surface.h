@@ -13,6 +13,7 @@ struct GroundFoot {
     std::optional<Vector3> normal;  ///< unit, towards the outward side; nothing at singular points
     double distance = 0.0;          ///< mm
     bool at_border = false;         ///< the foot lies on an edge or corner of the shape
+    SurfacePoint at;                ///< of a model; face 0 on measured points
 };
 
 /// A shape that points can be laid onto: a model or a cloud. Queries may come from any number of threads.

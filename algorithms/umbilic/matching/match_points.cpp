@@ -143,9 +143,12 @@ private:
         tbb::parallel_for(std::size_t{0}, result.size(), [&](std::size_t i) {
             progress.check();
             Pose& pose = result[i];
-            pose.refinement =
-                refine(ground, points, pose.original_suspect,
-                       {.scale = options_.scale, .start_cutoff = cutoff, .maximum_steps = steps}, progress);
+            pose.refinement = refine(ground, points, pose.original_suspect,
+                                     {.scale = options_.scale,
+                                      .start_cutoff = cutoff,
+                                      .maximum_steps = steps,
+                                      .hold_borders = &ground == &original_.exact},
+                                     progress);
             pose.original_suspect = pose.refinement.original_suspect;
             pose.cost = cost(pose.original_suspect, ground, points);
         });
@@ -265,6 +268,7 @@ private:
         result.relative_max = suspect.max / original_.size;
         result.suspect_coverage = suspect.share;
         result.original_coverage = original.share;
+        if (options_.scale.kind != ScaleChoice::Kind::fixed) result.scale_deviation = best.refinement.scale_deviation;
         const std::string doubts = doubt(best, result.scope == MatchScope::global);
         int strangers = 0;
         for (const Pose* other : equals) {
@@ -338,19 +342,12 @@ Alignment global_only(Alignment alignment, const MatchOptions& options) {
 
 Alignment match(const PreparedModel& original, const PreparedPoints& suspect, const MatchOptions& options,
                 const Progress& progress) {
-    check_options(options);  // before the work
-    const PrincipalFrameTable table(original.model, point_table_samples, progress.part(0.0, 0.2));
-    return match(original, table, suspect, options, progress.part(0.2, 1.0));
-}
-
-Alignment match(const PreparedModel& original, const PrincipalFrameTable& table, const PreparedPoints& suspect,
-                const MatchOptions& options, const Progress& progress) {
     check_options(options);
     check_method(options);
-    if (table.entries().empty()) throw InvalidInput(original.model.source.path + ": no face has a regular point");
+    if (original.table.entries().empty()) throw InvalidInput(original.model.source.path + ": no face has a regular point");
     const Ground ground(original);
     const Original side{.exact = ground,
-                        .table = table,
+                        .table = original.table,
                         .samples = original.features.samples,
                         .size = original.model.size(),
                         .length = shape_size(original.features).length,

@@ -23,9 +23,6 @@ struct PointDecision {
     static constexpr double departure = 3.0;
 };
 
-/// Samples of the original's table, if match() makes it.
-inline constexpr int point_table_samples = 20000;
-
 /// Finds how a cloud or mesh, the whole or a piece, lies on the original when nothing is known of pose, scale or
 /// handedness (thesis 4.6.2 and 4.8, without fitting a surface first): jets of the cloud with their
 /// principal frames are looked up among the original's samples, the best poses are refined by least squares in the
@@ -33,10 +30,6 @@ inline constexpr int point_table_samples = 20000;
 /// Unsupported. Deterministic. Throws InvalidInput for options as match() does; Cancelled.
 Alignment match(const PreparedModel& original, const PreparedPoints& suspect, const MatchOptions& options = {},
                 const Progress& progress = {});
-
-/// The same with the original's table, for one original and many suspects.
-Alignment match(const PreparedModel& original, const PrincipalFrameTable& table, const PreparedPoints& suspect,
-                const MatchOptions& options = {}, const Progress& progress = {});
 
 /// The same with measured points as the original: distances are those from the jets of its samples.
 Alignment match(const PreparedPoints& original, const PreparedPoints& suspect, const MatchOptions& options = {},

@@ -2,6 +2,7 @@
 #include <umbilic/matching/prepared_points.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <random>
@@ -16,6 +17,34 @@ namespace {
 
 /// A jet whose curvatures are less certain than this part of their magnitude proposes nothing.
 constexpr double greatest_uncertainty = 0.5;
+
+/// Radii that are tried, as parts of the length, and the points at which they are.
+constexpr std::array<double, 5> radii = {default_jet_radius, 0.2, 0.27, 0.36, 0.48};
+constexpr std::size_t radius_points = 200;
+/// A residual that grows by no more than this factor is still noise.
+constexpr double residual_growth = 1.1;
+
+/// The widest radius (mm) over which a polynomial leaves no more than over the narrowest.
+double widest_radius(const PointCloud& cloud, const Neighbours& neighbours, const std::vector<int>& chosen,
+                     const JetOptions& options, const Progress& progress) {
+    std::vector<int> some;
+    const std::size_t stride = std::max<std::size_t>(1, chosen.size() / radius_points);
+    for (std::size_t k = 0; k < chosen.size(); k += stride) some.push_back(chosen[k]);
+    const double length = cloud_length(cloud.points);
+    JetOptions with_radius = options;
+    double least = 0.0, widest = radii.front() * length;
+    for (const double radius : radii) {
+        with_radius.radius = radius * length;
+        const double residual = estimated_noise(point_jets(cloud, neighbours, some, with_radius, progress));
+        if (radius == radii.front())
+            least = residual;
+        else if (residual > 0.0 && residual <= residual_growth * least)
+            widest = radius * length;
+        else
+            break;
+    }
+    return widest;
+}
 
 std::vector<int> chosen_points(std::size_t count, int wanted, std::uint64_t seed) {
     std::vector<int> indices(count);
@@ -54,7 +83,10 @@ PreparedPoints prepare(const PointCloud& cloud, const PointFeatureOptions& optio
     const double area = std::accumulate(weights.begin(), weights.end(), 0.0);
     const std::vector<int> chosen = chosen_points(cloud.points.size(), options.samples, options.seed);
     progress.report(0.1, "jets");
-    std::vector<PointJet> jets = point_jets(cloud, neighbours, chosen, options.jets, progress.part(0.1, 1.0));
+    JetOptions jet_options = options.jets;
+    if (!jet_options.radius && cloud_length(cloud.points) > 0.0)
+        jet_options.radius = widest_radius(cloud, neighbours, chosen, options.jets, progress.part(0.1, 0.4));
+    std::vector<PointJet> jets = point_jets(cloud, neighbours, chosen, jet_options, progress.part(0.4, 1.0));
     if (std::none_of(jets.begin(), jets.end(), [](const PointJet& jet) { return jet.valid; }))
         throw InvalidInput(cloud.source.path + ": the points lie on no surface; is it a curve or a volume of points?");
 
@@ -78,8 +110,19 @@ PreparedPoints prepare(const PointCloud& cloud, const PointFeatureOptions& optio
             std::move(table),
             area,
             length,
+            jet_options.radius.value_or(0.0),
             noise,
             cloud.is_mesh() || !cloud.normals.empty()};
+}
+
+double typical_curvature_error(const PreparedPoints& points) {
+    std::vector<double> errors;
+    for (const PointJet& jet : points.jets)
+        if (jet.valid) errors.push_back(std::max(jet.kappa_max_error, jet.kappa_min_error));
+    if (errors.empty()) return 0.0;
+    const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
+    std::nth_element(errors.begin(), middle, errors.end());
+    return *middle;
 }
 
 }  // namespace umbilic

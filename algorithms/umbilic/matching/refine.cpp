@@ -24,6 +24,9 @@ constexpr double tukey = 4.7, quartile_to_deviation = 3.14;
 constexpr double filled = 0.12;
 /// ... by this factor after every step shorter than itself, until it is this part of the length.
 constexpr double close_cutoff = 1e-3, forced_shrink = 0.6;
+/// Points beyond a border pull with at most this part of the cut-off, where Tukey's influence is greatest: however far
+/// they hang over, they do not lose their pull.
+constexpr double strongest_pull = 0.447;
 /// The cut-off never falls below this part of the length, far above the rounding of coordinates.
 constexpr double least_cutoff = 1e-9;
 /// Longest step: radians, log(scale), and part of the length.
@@ -36,6 +39,7 @@ struct Foot {
     Vector3 moved, normal;
     double residual = 0.0;  ///< signed distance along the normal, mm of the original
     bool used = false;
+    bool beyond = false;  ///< hangs over a border and is drawn back: the normal points away from it
 };
 
 double size_of(std::span<const WeightedPoint> points) {
@@ -51,7 +55,7 @@ double size_of(std::span<const WeightedPoint> points) {
 }
 
 std::vector<Foot> find_feet(const GroundSurface& original, std::span<const WeightedPoint> points,
-                            const SimilarityTransform& pose, double cutoff) {
+                            const SimilarityTransform& pose, double cutoff, bool hold_borders) {
     std::vector<Foot> feet(points.size());
     tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
         Foot& foot = feet[i];
@@ -63,6 +67,10 @@ std::vector<Foot> find_feet(const GroundSurface& original, std::span<const Weigh
         foot.residual = foot.normal.dot(offset);
         const double beside = (offset - foot.residual * foot.normal).norm();
         foot.used = !closest->at_border || beside <= std::abs(foot.residual);
+        if (foot.used || !hold_borders) return;
+        foot.residual = offset.norm();
+        foot.normal = offset / foot.residual;
+        foot.used = foot.beyond = true;
     });
     return feet;
 }
@@ -194,7 +202,8 @@ Refinement refine(const GroundSurface& original, std::span<const WeightedPoint> 
         const double length = size * pose.scale;
         result.radius = 0.5 * length;
         result.cutoff = relative_cutoff * length;
-        std::vector<Foot> feet = find_feet(original, points, pose, result.cutoff);
+        const double reach = options.hold_borders ? options.start_cutoff * length : result.cutoff;
+        std::vector<Foot> feet = find_feet(original, points, pose, reach, options.hold_borders);
         const double quartile = quartile_residual(feet) / length;
         const bool force =
             quartile > filled * relative_cutoff && relative_cutoff > close_cutoff && last_step < relative_cutoff;
@@ -207,7 +216,10 @@ Refinement refine(const GroundSurface& original, std::span<const WeightedPoint> 
         // material once.
         relative_cutoff = next_cutoff;
         result.cutoff = relative_cutoff * length;
-        for (Foot& foot : feet) foot.used = foot.used && std::abs(foot.residual) <= result.cutoff;
+        for (Foot& foot : feet) {
+            if (foot.beyond) foot.residual = std::min(foot.residual, strongest_pull * result.cutoff);
+            foot.used = foot.used && std::abs(foot.residual) <= result.cutoff;
+        }
         const NormalEquations equations = normal_equations(points, feet, result.cutoff, result.radius);
         result.share = equations.weight / total;
         if (!(equations.weight > 0.0)) return result;

@@ -26,6 +26,9 @@ struct RefineOptions {
     /// default: the basin from which refinement converges.
     double start_cutoff = 0.08;
     int maximum_steps = 60;
+    /// Points that hang over a border are drawn back to it instead of being left out: for a suspect of which nothing
+    /// is foreign, and that could otherwise slide off a border without resistance.
+    bool hold_borders = false;
 };
 
 struct Refinement {

@@ -34,7 +34,8 @@ double van_der_corput(unsigned index) {
 std::optional<GroundFoot> Ground::foot(const Vector3& point, double limit) const {
     const auto closest = model.tree.closest(point, limit);
     if (!closest || closest->distance > limit) return {};
-    return GroundFoot{closest->point, normals.at(closest->at), closest->distance, closest->kind != FootKind::interior};
+    return GroundFoot{closest->point, normals.at(closest->at), closest->distance, closest->kind != FootKind::interior,
+                      closest->at};
 }
 
 std::vector<double> sample_distances(const Ground& ground, const PreparedModel& suspect,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <random>
 
 #include <Eigen/Geometry>
 
@@ -43,6 +44,43 @@ BoundingBox PointCloud::box() const {
 double triangle_area(const PointCloud& cloud, const std::array<int, 3>& triangle) {
     const Vector3& a = cloud.points[triangle[0]];
     return 0.5 * (cloud.points[triangle[1]] - a).cross(cloud.points[triangle[2]] - a).norm();
+}
+
+std::vector<Vector3> outward_normals(const PointCloud& cloud) {
+    if (!cloud.normals.empty() || !cloud.is_mesh()) return cloud.normals;
+    std::vector<Vector3> normals(cloud.points.size(), Vector3::Zero());
+    for (const auto& [a, b, c] : cloud.triangles) {
+        const Vector3 normal = (cloud.points[b] - cloud.points[a]).cross(cloud.points[c] - cloud.points[a]);
+        for (const int corner : {a, b, c}) normals[corner] += normal;
+    }
+    return normals;
+}
+
+void thin_out(PointCloud& cloud, std::size_t most, std::uint64_t seed) {
+    const std::size_t count = cloud.points.size();
+    if (count <= most) return;
+    std::vector<Vector3> normals = outward_normals(cloud);
+    std::vector<std::size_t> candidates;
+    for (std::size_t i = 0; i < count; ++i)
+        if (normals.empty() || !normals[i].isZero(0.0)) candidates.push_back(i);
+    // The first steps of a shuffle.
+    std::mt19937_64 random(seed);
+    const std::size_t kept = std::min(most, candidates.size());
+    for (std::size_t k = 0; k < kept; ++k) std::swap(candidates[k], candidates[k + random() % (candidates.size() - k)]);
+    candidates.resize(kept);
+    std::sort(candidates.begin(), candidates.end());
+    for (std::size_t k = 0; k < kept; ++k) {
+        cloud.points[k] = cloud.points[candidates[k]];
+        if (!normals.empty()) normals[k] = normals[candidates[k]].normalized();
+    }
+    cloud.points.resize(kept);
+    if (!normals.empty()) normals.resize(kept);
+    cloud.warnings.push_back("of its " + std::to_string(count) + " points " + std::to_string(kept) +
+                             ", chosen at random, are used" +
+                             (cloud.is_mesh() ? ", with the normals of its triangles" : ""));
+    cloud.normals = std::move(normals);
+    cloud.triangles.clear();
+    cloud.thinned_out += count - kept;
 }
 
 void clean(PointCloud& cloud) {

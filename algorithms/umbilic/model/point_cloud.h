@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -24,6 +25,7 @@ struct PointCloud {
     std::uint64_t not_finite = 0;            ///< points with a coordinate that is NaN or infinite
     std::uint64_t merged = 0;                ///< points whose coordinates repeat those of an earlier one
     std::uint64_t degenerate_triangles = 0;  ///< with two equal corners, or a corner that was dropped
+    std::uint64_t thinned_out = 0;           ///< what thin_out() took away
     std::vector<std::string> warnings;
 
     bool is_mesh() const { return !triangles.empty(); }
@@ -38,5 +40,14 @@ void clean(PointCloud& cloud);
 
 /// Area of one triangle, mm^2.
 double triangle_area(const PointCloud& cloud, const std::array<int, 3>& triangle);
+
+/// Normals of the cloud's points: its own, or the sums of those of the triangles around each point weighted by area
+/// (not of unit length; 0 at points of no triangle); none without either.
+std::vector<Vector3> outward_normals(const PointCloud& cloud);
+
+/// Leaves `most` points (at least 1), chosen at random by `seed`, in their order, with a warning that says so; nothing
+/// happens if there are no more. A mesh becomes a cloud with normals, as its triangles lose their corners; the points
+/// of a mesh that belong to no triangle go first.
+void thin_out(PointCloud& cloud, std::size_t most, std::uint64_t seed = 0);
 
 }  // namespace umbilic

@@ -33,12 +33,16 @@ constexpr double growth = 1.35, points_per_pole = 3.0;
 /// Points whose surface is steeper than this over the base plane (cosine) fold over it; that many of them may be noise.
 constexpr double steepest_cosine = 0.1, folded_share = 0.02;
 constexpr double rounding = 1e-12;
+/// Points whose rectangle is narrower than this part of its length lie on a line but for rounding in files.
+constexpr double narrowest = 1e-9;
 
 void check(const PointCloud& cloud, const FitOptions& options) {
     const auto wrong = [](const std::string& what) { throw InvalidInput("fit: " + what); };
     if (options.degree < 1 || options.degree > maximum_degree) wrong("the degree must lie between 1 and 25");
     if (options.poles && (options.poles->first <= options.degree || options.poles->second <= options.degree))
         wrong("each direction needs more poles than its degree " + std::to_string(options.degree));
+    if (options.tolerance && !(std::isfinite(*options.tolerance) && *options.tolerance > 0.0))
+        wrong("the tolerance must be a positive length in mm");
     if (options.most_poles <= options.degree) wrong("the greatest number of poles must exceed the degree");
     if (options.reprojections < 0) wrong("the number of re-projections must not be negative");
     if (options.method == FitMethod::grid && !options.grid) wrong("a grid needs its numbers of rows and columns");
@@ -106,7 +110,8 @@ std::vector<ParametrisedPoint> on_base_plane(const PointCloud& cloud, const std:
     const auto [y_low, y_high] = extent(best_y);
     u_side = x_high - x_low;
     v_side = y_high - y_low;
-    if (!(u_side > 0.0 && v_side > 0.0)) throw InvalidInput("fit: the points lie on a line; no surface is determined");
+    if (!(std::min(u_side, v_side) > narrowest * std::max(u_side, v_side)))
+        throw InvalidInput("fit: the points lie on a line; no surface is determined");
     std::vector<ParametrisedPoint> result;
     for (const Vector3& p : cloud.points)
         result.push_back({std::clamp((best_x.dot(p - centre) - x_low) / u_side, 0.0, 1.0),
@@ -210,6 +215,11 @@ bool is_noise(const FitStep& step, double noise, std::size_t points) {
     return step.rms <= noise_reached * noise * std::sqrt(std::max(left, 0.0));
 }
 
+/// True if a net need not grow any more.
+bool good_enough(const FitStep& step, double noise, std::size_t points, const FitOptions& options) {
+    return options.tolerance ? step.maximum <= *options.tolerance : is_noise(step, noise, points);
+}
+
 std::pair<int, int> net_size(double poles, double u_side, double v_side, const FitOptions& options) {
     const double aspect = std::sqrt(u_side / v_side);
     const auto limited = [&](double count) {
@@ -232,10 +242,12 @@ Net grown(const FitSize& fit_size, double u_side, double v_side, std::size_t poi
         progress.report(std::min(0.95, poles / options.most_poles), "fitting a larger net");
         Net net = fit_size(m, n, best ? &*best : nullptr);
         steps.push_back(net.step);
-        const bool worth = !best || net.step.rms < (1.0 - worthwhile_fall) * best->step.rms;
+        const bool worth = !best || net.step.rms < (1.0 - worthwhile_fall) * best->step.rms ||
+                           (options.tolerance && net.step.maximum <= *options.tolerance);
         idle = worth ? 0 : idle + 1;
         if (worth) best = std::move(net);
-        if (is_noise(best->step, noise, points) || idle == 2 || (m == options.most_poles && n == options.most_poles) ||
+        if (good_enough(best->step, noise, points, options) || idle == 2 ||
+            (m == options.most_poles && n == options.most_poles) ||
             best->step.rms <= rounding * std::max(u_side, v_side))
             break;
     }
@@ -299,9 +311,9 @@ FitResult fit_multilevel(std::vector<ParametrisedPoint> points, double u_side, d
         Net net = reprojected(fit, points, options.reprojections, progress);
         steps.push_back(net.step);
         points = net.points;
-        const bool noise_level = is_noise(net.step, noise, points.size());
+        const bool enough = good_enough(net.step, noise, points.size(), options);
         if (!best || net.step.rms < best->step.rms) best = std::move(net);
-        if (!options.poles && noise_level) break;
+        if (!options.poles && enough) break;
     }
     return finished(std::move(*best), FitMethod::multilevel, noise, std::move(steps));
 }
@@ -346,6 +358,7 @@ FitResult fit_points(const PointCloud& cloud, const FitOptions& options, const P
         Net net = grown(fit_size, u_side, v_side, base.size(), noise, options, steps, fitting);
         return finished(std::move(net), FitMethod::scattered, noise, std::move(steps));
     }();
+    result.within_tolerance = options.tolerance && result.maximum <= *options.tolerance;
     result.filter_rms_change = rms_change;
     result.filter_max_change = max_change;
     progress.report(1.0, "fitted");

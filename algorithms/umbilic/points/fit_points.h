@@ -19,8 +19,10 @@ enum class FitMethod { scattered, multilevel, grid };
 struct FitOptions {
     FitMethod method = FitMethod::scattered;
     int degree = 3;
-    /// Poles along u and v; none: grown until the residual is noise.
+    /// Poles along u and v; none: grown until the residual is noise, or until it is within `tolerance`.
     std::optional<std::pair<int, int>> poles;
+    /// Greatest distance (mm) of a point from the surface at which a net grows no more; none: the noise decides.
+    std::optional<double> tolerance;
     /// Rows and columns of a grid, whose points follow each other row by row.
     std::optional<std::pair<int, int>> grid;
     /// Width (mm) of a Gaussian low-pass filter before the fit; none: no filter.
@@ -44,8 +46,9 @@ struct FitResult {
     std::vector<double> distances;                ///< from the surface, positive on the side of r_u x r_v, mm
     double rms = 0.0, mean = 0.0, maximum = 0.0;  ///< of the distances' sizes, mm
     double noise = 0.0;                           ///< standard deviation along the normal, from local jets, mm
-    bool reached_noise = false;  ///< the rms is that of noise, given the number of poles: more poles would fit noise
-    std::vector<FitStep> steps;  ///< nets that were tried, in order
+    bool reached_noise = false;     ///< the rms is that of noise, given the number of poles: more poles would fit noise
+    bool within_tolerance = false;  ///< no point is farther than FitOptions::tolerance, if there is one
+    std::vector<FitStep> steps;     ///< nets that were tried, in order
     double filter_rms_change = 0.0, filter_max_change = 0.0;  ///< what the low-pass filter moved, mm
 };
 

@@ -50,17 +50,6 @@ constexpr double factorial(int n) {
     return n < 2 ? 1.0 : n * factorial(n - 1);
 }
 
-/// Normals of the cloud's points, from the triangles if it has none of its own; empty without either.
-std::vector<Vector3> outward_normals(const PointCloud& cloud) {
-    if (!cloud.normals.empty() || !cloud.is_mesh()) return cloud.normals;
-    std::vector<Vector3> normals(cloud.points.size(), Vector3::Zero());
-    for (const auto& [a, b, c] : cloud.triangles) {
-        const Vector3 normal = (cloud.points[b] - cloud.points[a]).cross(cloud.points[c] - cloud.points[a]);
-        for (const int corner : {a, b, c}) normals[corner] += normal;
-    }
-    return normals;  // those of lone points stay 0 and say nothing
-}
-
 /// Polynomial height over a frame, in units of the radius.
 struct Fit {
     Matrix3 frame;  ///< columns x, y, normal

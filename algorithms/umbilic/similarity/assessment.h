@@ -87,6 +87,10 @@ struct Assessment {
     bool flipped = false;      ///< the suspect's normals were reversed to agree with the original's (open surfaces)
     bool weak_passed = false;  ///< by the thresholds of decision algorithm 2
     bool intermediate_passed = false;  ///< the same; never without weak_passed
+    /// Why curvatures could not be compared, so that the intermediate test says nothing; empty if they could.
+    std::string intermediate_why;
+    /// The suspect is measured points: its direction alone decides, as nothing is known of what was not measured.
+    bool measured = false;
     StrongTest strong;
     double cell = 0.0;  ///< delta_s, relative to a face's domain
     LocalSimilarity distance, kappa_max, kappa_min, direction;

@@ -6,12 +6,14 @@
 #include <vector>
 
 #include <umbilic/matching/match.h>
+#include <umbilic/matching/prepared_shape.h>
 #include <umbilic/similarity/verdict.h>
 
 namespace umbilic {
 
 struct CompareOptions {
     FeatureOptions features;
+    PointFeatureOptions points;  ///< of measured points
     MatchOptions match;
     ToleranceChoices tolerances;
     int algorithm = 2;  ///< decision algorithm that gives the verdict's level, 1 or 2
@@ -28,6 +30,10 @@ struct Comparison {
 
 /// The whole comparison of two prepared models: match, assess, decide, answer. Throws Cancelled.
 Comparison compare(const PreparedModel& original, const PreparedModel& suspect, const CompareOptions& options = {},
+                   const Progress& progress = {});
+
+/// The same where either may be measured points. Throws Unsupported for a model as the suspect of points.
+Comparison compare(const PreparedShape& original, const PreparedShape& suspect, const CompareOptions& options = {},
                    const Progress& progress = {});
 
 }  // namespace umbilic

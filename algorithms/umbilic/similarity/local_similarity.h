@@ -16,4 +16,8 @@ namespace umbilic {
 LocalSimilarity local_similarity(const Model& model, std::span<const NodeComparison> nodes, Quantity quantity,
                                  double tolerance, double cell);
 
+/// The same of measured points, which have no parameters: cells are cubes of side `side` (mm of the original) in space.
+LocalSimilarity local_similarity(std::span<const NodeComparison> nodes, Quantity quantity, double tolerance,
+                                 double side);
+
 }  // namespace umbilic

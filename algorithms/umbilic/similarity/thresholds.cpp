@@ -21,6 +21,7 @@ bool curvatures_agree(const DirectedComparison& direction, const Assessment& ass
 const DirectedComparison& better_covered(const Assessment& assessment) {
     const DirectedComparison& suspect = assessment.suspect_on_original;
     const DirectedComparison& original = assessment.original_on_suspect;
+    if (assessment.measured) return suspect;
     return std::pair(original.overlap, original.coverage) > std::pair(suspect.overlap, suspect.coverage) ? original
                                                                                                          : suspect;
 }
@@ -37,8 +38,12 @@ bool within_maximum(const Statistics& statistics, double tolerance) {
 }
 
 std::vector<const DirectedComparison*> deciding_directions(const Assessment& assessment) {
-    if (assessment.scope == MatchScope::partial) return {&better_covered(assessment)};
+    if (assessment.scope == MatchScope::partial || assessment.measured) return {&better_covered(assessment)};
     return {&assessment.suspect_on_original, &assessment.original_on_suspect};
+}
+
+double needed_share(const Assessment& assessment) {
+    return assessment.measured ? measured_share : whole_share;
 }
 
 bool comparable(const DirectedComparison& direction) {
@@ -48,7 +53,8 @@ bool comparable(const DirectedComparison& direction) {
 bool passes_weak(const Assessment& assessment) {
     const double distance = find_tolerance(assessment.tolerances, "distance").value;
     return std::ranges::all_of(deciding_directions(assessment), [&](const DirectedComparison* direction) {
-        if (assessment.scope == MatchScope::partial && direction->overlap < whole_share) return false;
+        const bool asked = assessment.scope == MatchScope::partial || assessment.measured;
+        if (asked && direction->overlap < needed_share(assessment)) return false;
         return within_thresholds(direction->distance, distance);
     });
 }

@@ -13,6 +13,8 @@ namespace umbilic {
 inline constexpr double spread_factor = 3.0;
 /// A model counts as lying on the other one if this share of its area is in the overlap.
 inline constexpr double whole_share = 0.99;
+/// The same of measured points: scans have outliers.
+inline constexpr double measured_share = 0.95;
 /// Smallest share of either model that counts as a part that coincides.
 inline constexpr double least_part = 0.1;
 /// Where only a part coincides, mean distance in the overlap <= partial_mean * delta_0: where surfaces merely cross or
@@ -28,8 +30,11 @@ bool within_maximum(const Statistics& statistics, double tolerance);
 
 /// The directions that decide: both where the scope is global (a suspect that is only a piece must not pass as a
 /// whole); the one of which more lies on the other model where it is partial (the thesis limits partial comparisons to
-/// the smaller surface).
+/// the smaller surface). Of measured points the suspect's.
 std::vector<const DirectedComparison*> deciding_directions(const Assessment& assessment);
+
+/// Share of the deciding model that must be in the overlap.
+double needed_share(const Assessment& assessment);
 
 /// True if curvatures could be compared on enough nodes.
 bool comparable(const DirectedComparison& direction);

@@ -104,15 +104,16 @@ Level strong_or_intermediate(Decision& decision, const StrongTest& strong) {
                                                                                                : Level::intermediate;
 }
 
-/// Under partial scope the tests are made on the model of which more lies on the other one: does it as a whole?
+/// Under partial scope, and of measured points, the tests are made on the model of which more lies on the other one:
+/// does it as a whole?
 bool ask_whole(Decision& decision, const Assessment& assessment) {
-    if (assessment.scope == MatchScope::global) return true;
+    if (assessment.scope == MatchScope::global && !assessment.measured) return true;
     const DirectedComparison& direction = *deciding_directions(assessment).front();
     const char* whose = &direction == &assessment.suspect_on_original ? "suspect" : "original";
     return ask(decision,
                std::string("Does the whole ") + whose + " lie on the other model (" + in_percent(direction.overlap) +
                    " of its surface)?",
-               direction.overlap >= whole_share);
+               direction.overlap >= needed_share(assessment));
 }
 
 std::string level_in_words(Level level) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <umbilic/matching/prepared_points.h>
 #include <umbilic/similarity/assessment.h>
 
 namespace umbilic {
@@ -48,6 +49,10 @@ struct Answer {
 
 Answer answer(const Model& original, const Model& suspect, const Alignment& alignment, const Assessment& assessment,
               const Verdict& verdict);
+
+/// The same of measured points: a scan of the whole original or of a piece of it, within which distance its points lie
+/// on it, and how much of it they cover. `suspect` is a mesh or a cloud.
+Answer answer(const PreparedPoints& suspect, const Alignment& alignment, const Assessment& assessment);
 
 const char* name(Level level);
 const char* name(AnswerClass kind);

@@ -12,6 +12,11 @@ def has_faces(obj: Any) -> bool:
     return shape is not None and hasattr(shape, "exportBinary") and not shape.isNull() and bool(shape.Faces)
 
 
+def is_measured(obj: Any) -> bool:
+    """Whether an object is a mesh or a cloud of points."""
+    return obj.isDerivedFrom("Mesh::Feature") or obj.isDerivedFrom("Points::Feature")
+
+
 def global_shape(obj: Any) -> Any:
     """The object's shape where the view shows it, placements of its parents included."""
     if not has_faces(obj):
@@ -22,13 +27,20 @@ def global_shape(obj: Any) -> Any:
     return shape
 
 
-def snapshot(obj: Any) -> "umbilic.ShapeData":
-    """The shape as data that a thread may read."""
+def snapshot(obj: Any) -> "umbilic.ShapeData | umbilic.Points":
+    """The shape, or the measured points with the object's own placement, as data that a thread may read."""
+    if is_measured(obj):
+        kernel = obj.Mesh if obj.isDerivedFrom("Mesh::Feature") else obj.Points
+        return umbilic.points(kernel, label=obj.Label)
     return umbilic.ShapeData(global_shape(obj), obj.Label)
 
 
 def fingerprint(obj: Any) -> str:
     """Text that changes when the shape does: to tell whether a stored result still belongs to it."""
+    if is_measured(obj):
+        kernel = obj.Mesh if obj.isDerivedFrom("Mesh::Feature") else obj.Points
+        box = kernel.BoundBox
+        return f"{kernel.CountPoints} points; {box.DiagonalLength:.9g} {box.Center}"
     shape = global_shape(obj)
     numbers: List[float] = [shape.Area, shape.Volume, shape.BoundBox.DiagonalLength]
     numbers += list(shape.BoundBox.Center)

@@ -27,7 +27,7 @@ class ComparisonProxy(StoredProxy):
         changed = [
             name
             for name in ("Original", "Suspect")
-            if getattr(obj, name, None) is not None and shapes.has_faces(getattr(obj, name))
+            if getattr(obj, name, None) is not None and (shapes.has_faces(getattr(obj, name)) or shapes.is_measured(getattr(obj, name)))
             and shapes.fingerprint(getattr(obj, name)) != getattr(obj, name + "Fingerprint")
         ]
         state = f"Out of date: {' and '.join(changed).lower()} changed; compare again" if changed else CURRENT

@@ -28,9 +28,9 @@ class ComparePanel(WorkPanel):
 
     def __init__(self):
         super().__init__()
-        chosen = selected_objects() + [None, None]
-        self.original = ModelChoice(self.form.original, self.form.originalFile, chosen[0])
-        self.suspect = ModelChoice(self.form.suspect, self.form.suspectFile, chosen[1])
+        chosen = selected_objects(measured=True) + [None, None]
+        self.original = ModelChoice(self.form.original, self.form.originalFile, chosen[0], measured=True)
+        self.suspect = ModelChoice(self.form.suspect, self.form.suspectFile, chosen[1], measured=True)
         self.form.answer.hide()
 
     def prepare(self) -> Callable[[Callable[[float, str], bool]], Any]:

@@ -8,18 +8,22 @@ import umbilic
 
 from .. import preferences, shapes
 from ..compat import QtWidgets
-from .work_panel import shown_objects
+from .work_panel import measured_objects, shown_objects
 
-_FILES = "CAD files (*.step *.stp *.iges *.igs *.brep *.brp);;All files (*)"
+_CAD_FILES = "CAD files (*.step *.stp *.iges *.igs *.brep *.brp);;All files (*)"
+_SHAPE_FILES = ("CAD files, points and meshes (*.step *.stp *.iges *.igs *.brep *.brp *.xyz *.asc *.csv *.ply *.stl *.obj)"
+                ";;All files (*)")
 
 
 class ModelChoice:
     """A list of the document's objects that a file can be added to."""
 
-    def __init__(self, combo: Any, button: Any, chosen: Optional[Any] = None):
+    def __init__(self, combo: Any, button: Any, chosen: Optional[Any] = None, measured: bool = False):
+        """`measured`: meshes and clouds of points can be chosen too."""
         self._combo = combo
+        self._files = _SHAPE_FILES if measured else _CAD_FILES
         combo.addItem("Choose an object or a file", None)
-        for obj in shown_objects():
+        for obj in shown_objects() + (measured_objects() if measured else []):
             combo.addItem(obj.Label, obj)
             if obj is chosen:
                 combo.setCurrentIndex(combo.count() - 1)
@@ -33,7 +37,7 @@ class ModelChoice:
 
     def _ask(self) -> None:
         ask = QtWidgets.QFileDialog.getOpenFileName
-        path = ask(self._combo, "Choose a model", preferences.last_folder(), _FILES)[0]
+        path = ask(self._combo, "Choose a model", preferences.last_folder(), self._files)[0]
         if path:
             preferences.set_last_folder(os.path.dirname(path))
             self.choose_file(path)
@@ -44,7 +48,7 @@ class ModelChoice:
         chosen = self._combo.currentData()
         return None if chosen is None or isinstance(chosen, str) else chosen
 
-    def source(self, what: str) -> "umbilic.ShapeData | str":
+    def source(self, what: str) -> "umbilic.ShapeData | umbilic.Points | str":
         """What `umbilic.read` takes: a path, or a snapshot that a thread may read. Raises InvalidInput if empty."""
         chosen = self._combo.currentData()
         if chosen is None:

@@ -104,6 +104,13 @@ def shown_objects() -> list:
     return [obj for obj in document.Objects if shapes.has_faces(obj) and obj.Name not in inside]
 
 
-def selected_objects() -> list:
-    """Selected objects that have faces, in the order of the selection."""
-    return [obj for obj in Gui.Selection.getSelection() if shapes.has_faces(obj)]
+def measured_objects() -> list:
+    """Meshes and clouds of points of the active document, in the order of the tree."""
+    document = App.ActiveDocument
+    return [] if document is None else [obj for obj in document.Objects if shapes.is_measured(obj)]
+
+
+def selected_objects(measured: bool = False) -> list:
+    """Selected objects that have faces, or are `measured`, in the order of the selection."""
+    return [obj for obj in Gui.Selection.getSelection()
+            if shapes.has_faces(obj) or (measured and shapes.is_measured(obj))]

@@ -87,8 +87,20 @@ def _mesh(points: Any, triangles: Any, edges: Any, colors: np.ndarray, transpare
     binding = coin.SoMaterialBinding()
     per_point = len(colors) > 1 and len(colors) == len(places)
     binding.value = coin.SoMaterialBinding.PER_VERTEX_INDEXED if per_point else coin.SoMaterialBinding.OVERALL
-    surface = coin.SoIndexedFaceSet()
-    _set_indices(surface.coordIndex, stored(triangles, 3, np.int32))
+    corners = stored(triangles, 3, np.int32)
+    if len(corners):
+        surface = coin.SoIndexedFaceSet()
+        _set_indices(surface.coordIndex, corners)
+    else:  # a cloud of points
+        if per_point:
+            binding.value = coin.SoMaterialBinding.PER_VERTEX
+        dots, plain = coin.SoDrawStyle(), coin.SoLightModel()
+        dots.pointSize = 3
+        plain.model = coin.SoLightModel.BASE_COLOR
+        faces.addChild(dots)
+        faces.addChild(plain)
+        surface = coin.SoPointSet()
+        surface.numPoints = len(places)
     for node in (offset, material, binding, surface):
         faces.addChild(node)
     mesh.addChild(faces)
