@@ -3,9 +3,9 @@
 
 namespace umbilic {
 
-/// automatic: given pairs or pose, umbilics, moments, curvature, in this order, until a pose convinces; of measured
-/// points their local jets. points: these alone.
-enum class MethodChoice { automatic, umbilics, moments, curvature, points };
+/// automatic: given pairs or pose, analytic faces, umbilics, moments, curvature, in this order, until a pose convinces;
+/// of measured points their local jets. points: these alone.
+enum class MethodChoice { automatic, analytic, umbilics, moments, curvature, points };
 enum class MirrorChoice { automatic, never };
 enum class ScopeChoice { automatic, global, partial };
 
