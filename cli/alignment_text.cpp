@@ -26,6 +26,7 @@ std::vector<std::pair<std::string, std::string>> alignment_facts(const Alignment
     lines.emplace_back("  distance", "rms " + readable(alignment.rms, "mm", 3) + ", max " +
                                          readable(alignment.max, "mm", 3) + ", relative max " +
                                          readable(alignment.relative_max, 3));
+    for (const FreeMotion& motion : alignment.free_motions) lines.emplace_back("  free", in_words(motion));
     return lines;
 }
 

@@ -48,8 +48,9 @@ void add_match_options(CLI::App& subcommand, MatchWords& words) {
     const char* const group = "Pose";
     subcommand
         .add_option("--method", words.options.match.method,
-                    "How poses are proposed: auto, umbilics, moments, curvature, kh or points")
+                    "How poses are proposed: auto, analytic, umbilics, moments, curvature, kh or points")
         ->transform(CLI::CheckedTransformer(std::map<std::string, MethodChoice>{{"auto", MethodChoice::automatic},
+                                                                                {"analytic", MethodChoice::analytic},
                                                                                 {"umbilics", MethodChoice::umbilics},
                                                                                 {"moments", MethodChoice::moments},
                                                                                 {"curvature", MethodChoice::curvature},

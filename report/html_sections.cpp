@@ -209,6 +209,7 @@ void set_alignment(const Alignment& alignment, PageData& page) {
         row("Counts as covered", "distance ≤ " + readable(alignment.tolerance, "mm"));
         row("Poses that fit equally well", readable_count(alignment.symmetries.size()));
         if (alignment.copies.size() > 1) row("Places at which it fits", readable_count(alignment.copies.size()));
+        for (const FreeMotion& motion : alignment.free_motions) row("The suspect still", in_words(motion));
         for (int i = 0; i < 3; ++i) {
             matrix.push_back(entry({{"x", fmt::format("{:.9f}", pose.rotation(i, 0))},
                                     {"y", fmt::format("{:.9f}", pose.rotation(i, 1))},

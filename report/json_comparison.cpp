@@ -158,6 +158,13 @@ Json alignment_json(const Alignment& alignment) {
     for (const SimilarityTransform& pose : alignment.symmetries) json["symmetries"].push_back(transform_json(pose));
     json["copies"] = Json::array();
     for (const SimilarityTransform& pose : alignment.copies) json["copies"].push_back(transform_json(pose));
+    json["free_motions"] = Json::array();
+    for (const FreeMotion& motion : alignment.free_motions) {
+        Json entry = {{"kind", name(motion.kind)}, {"point", vector_json(motion.point)}};
+        entry["direction"] = motion.direction.isZero() ? Json(nullptr) : vector_json(motion.direction);
+        if (motion.pitch != 0.0) entry["pitch"] = number_json(motion.pitch);
+        json["free_motions"].push_back(std::move(entry));
+    }
     return json;
 }
 

@@ -17,6 +17,8 @@ std::string word(MethodChoice choice) {
     switch (choice) {
         case MethodChoice::automatic:
             return "auto";
+        case MethodChoice::analytic:
+            return "analytic";
         case MethodChoice::umbilics:
             return "umbilics";
         case MethodChoice::moments:

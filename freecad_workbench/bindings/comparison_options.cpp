@@ -107,6 +107,7 @@ CompareOptions comparison_options(const py::dict& keywords) {
         if (name == "method") {
             options.match.method = choice_of<MethodChoice>(name, value,
                                                            {{"auto", MethodChoice::automatic},
+                                                            {"analytic", MethodChoice::analytic},
                                                             {"umbilics", MethodChoice::umbilics},
                                                             {"moments", MethodChoice::moments},
                                                             {"curvature", MethodChoice::curvature},

@@ -7,7 +7,7 @@ import copy
 import json
 import os
 from dataclasses import dataclass
-from typing import Any, Dict, Optional, Union
+from typing import Any, Dict, List, Optional, Union
 
 import numpy as np
 
@@ -64,6 +64,9 @@ class Alignment:
     max: Optional[float]
     relative_max: Optional[float]
     """`max` / sqrt(area of the original)."""
+    free_motions: List[Dict[str, Any]]
+    """What the pose leaves open: dicts with "kind" ("turn", "slide", "slide_in_plane", "turn_about_point", "screw",
+    "size" or "spiral"), "point" (mm of the original), "direction" (or None) and, of screws and spirals, "pitch"."""
 
     @staticmethod
     def of(entry: Dict[str, Any]) -> "Alignment":
@@ -73,7 +76,8 @@ class Alignment:
             name: None if entry.get(name) is None else np.array(entry[name], dtype=float)
             for name in ("rotation", "translation")
         }
-        return Alignment(**{name: entry.get(name) for name in names}, **arrays)
+        return Alignment(**{name: entry.get(name) for name in names}, **arrays,
+                         free_motions=entry.get("free_motions") or [])
 
     def matrix(self) -> np.ndarray:
         """The homogeneous matrix (4, 4) of the map from suspect to original. Raises ValueError without a pose."""
@@ -246,7 +250,7 @@ def compare(
 
     Either is what `read` takes; measured points as the original need points as the suspect. `seconds` limits the reading of each model. Options, all optional, named as on the command line:
 
-    method            "auto", "umbilics", "moments", "curvature" or "kh"; "points" of measured points
+    method            "auto", "analytic", "umbilics", "moments", "curvature" or "kh"; "points" of measured points
     scale             "auto", "fixed" (it is 1) or (low, high)
     scale_search      "golden" (section) or "brent": how "kh" searches a scale that is not fixed
     mirror            "auto" or "never"

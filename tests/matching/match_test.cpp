@@ -321,21 +321,27 @@ TEST(Match, SurfacesWithoutUmbilicsMatchByTheirCurvature) {
     }
 }
 
-TEST(Match, BoxesMatchByTheirMomentsInAllTheirSymmetries) {
+TEST(Match, BoxesMatchByFacesAndByMomentsInAllTheirSymmetries) {
     const SimilarityTransform identity, place = random_similarity(17, 25.4, false);
-    const Alignment moved = match_models(box({3, 2, 1}, identity), box({3, 2, 1}, place.inverse()));
-    SCOPED_TRACE(moved.why);
-    ASSERT_EQ(moved.status, AlignmentStatus::found);
-    EXPECT_EQ(moved.method, MatchMethod::moments);
-    EXPECT_EQ(moved.scope, MatchScope::global);
-    EXPECT_FALSE(moved.original_suspect.mirrored);
-    EXPECT_NEAR(moved.original_suspect.scale, 25.4, 25.4e-9);
-    EXPECT_EQ(moved.symmetries.size(), 7u);
+    for (const auto& [choice, method] : {std::pair(MethodChoice::automatic, MatchMethod::analytic),
+                                         std::pair(MethodChoice::moments, MatchMethod::moments)}) {
+        const Alignment moved =
+            match_models(box({3, 2, 1}, identity), box({3, 2, 1}, place.inverse()), {.method = choice});
+        SCOPED_TRACE(moved.why);
+        ASSERT_EQ(moved.status, AlignmentStatus::found);
+        EXPECT_EQ(moved.method, method);
+        EXPECT_EQ(moved.scope, MatchScope::global);
+        EXPECT_FALSE(moved.original_suspect.mirrored);
+        EXPECT_NEAR(moved.original_suspect.scale, 25.4, 25.4e-9);
+        EXPECT_EQ(moved.symmetries.size(), 7u);
+        EXPECT_TRUE(moved.free_motions.empty());
 
-    const Alignment cube = match_models(box({2, 2, 2}, identity), box({2, 2, 2}, place.inverse()));
-    SCOPED_TRACE(cube.why);
-    ASSERT_EQ(cube.status, AlignmentStatus::found);
-    EXPECT_EQ(cube.symmetries.size(), 47u);
+        const Alignment cube =
+            match_models(box({2, 2, 2}, identity), box({2, 2, 2}, place.inverse()), {.method = choice});
+        SCOPED_TRACE(cube.why);
+        ASSERT_EQ(cube.status, AlignmentStatus::found);
+        EXPECT_EQ(cube.symmetries.size(), 47u);
+    }
 
     // Two boxes share edges and angles, never the ratio of their sides.
     EXPECT_FALSE(match_models(box({3, 2, 1}, identity), box({3, 2.4, 1}, identity)).found());

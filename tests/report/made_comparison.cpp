@@ -107,6 +107,7 @@ std::unique_ptr<MadeComparison> made_comparison(const std::string& name) {
     candidate.score = 0.5;
     alignment.runners_up = {candidate};
     alignment.symmetries = {alignment.original_suspect};
+    alignment.free_motions = {{FreeMotionKind::turn, Vector3(0, 0, 5), Vector3::UnitZ()}};
 
     Assessment& assessment = comparison.assessment;
     assessment.suspect_on_original = directed(*made->suspect, *made->original, alignment.original_suspect);

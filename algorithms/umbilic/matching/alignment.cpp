@@ -23,6 +23,8 @@ const char* name(MatchMethod method) {
             return "none";
         case MatchMethod::given:
             return "given";
+        case MatchMethod::analytic:
+            return "analytic";
         case MatchMethod::umbilics:
             return "umbilics";
         case MatchMethod::moments:

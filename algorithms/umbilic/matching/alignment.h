@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <umbilic/core/similarity_transform.h>
+#include <umbilic/matching/free_motions.h>
 
 namespace umbilic {
 
@@ -12,7 +13,7 @@ namespace umbilic {
 /// compatible: it fits, but there is too little evidence; not_found: nothing fits.
 enum class AlignmentStatus { found, ambiguous, compatible, not_found };
 
-enum class MatchMethod { none, given, umbilics, moments, curvature, kh, points };
+enum class MatchMethod { none, given, analytic, umbilics, moments, curvature, kh, points };
 
 /// global: suspect and original as wholes; partial: the suspect is (or contains) a part of the original.
 enum class MatchScope { global, partial };
@@ -46,6 +47,7 @@ struct Alignment {
                                                   ///< winner, symmetries of the original
     std::vector<SimilarityTransform> copies;      ///< one pose a place, see copies.h; more than one where the original
                                                   ///< stands in the suspect, or the suspect in the original, repeatedly
+    std::vector<FreeMotion> free_motions;         ///< of the suspect on the original, that no distance tells
 
     bool found() const { return status == AlignmentStatus::found; }
 };

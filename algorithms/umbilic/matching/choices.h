@@ -3,9 +3,10 @@
 
 namespace umbilic {
 
-/// automatic: given pairs or pose, umbilics, moments, curvature, in this order, until a pose convinces; of measured
-/// points their local jets. points: these alone. kh: points of equal Gaussian and mean curvature, on request only.
-enum class MethodChoice { automatic, umbilics, moments, curvature, kh, points };
+/// automatic: given pairs or pose, analytic faces, umbilics, moments, curvature, in this order, until a pose convinces;
+/// of measured points their local jets. points: these alone. kh: points of equal Gaussian and mean curvature, on request
+/// only.
+enum class MethodChoice { automatic, analytic, umbilics, moments, curvature, kh, points };
 /// How the scale is searched where points of equal curvature are compared at one scale after the other.
 enum class ScaleSearch { golden_section, brent };
 enum class MirrorChoice { automatic, never };

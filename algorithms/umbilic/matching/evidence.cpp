@@ -2,6 +2,7 @@
 #include <umbilic/matching/evidence.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -17,14 +18,20 @@ constexpr int fewest_samples = 3;
 /// Two elementary surfaces are the same if they differ by less than this many tolerances.
 constexpr double same_surface = 10.0;
 
-enum class Form { plane, cylinder, sphere, developable, free };
+/// Conditions of a developable surface that is neither cylinder nor cone.
+constexpr int developable_equations = 4;
 
-/// An elementary surface by a direction (sign without meaning), a point and a radius, all in mm.
+enum class Form { plane, cylinder, cone, sphere, torus, developable, free };
+
+/// An elementary surface in the model's coordinates relative to its centroid, mm.
 struct Element {
     Form form = Form::free;
-    Vector3 direction = Vector3::Zero();  ///< times the model's length
+    Vector3 direction = Vector3::Zero();  ///< unit, sign without meaning
+    /// Foot of the centroid on a plane, foot on the axis of a cylinder, apex of a cone, centre of a sphere or torus.
     Vector3 location = Vector3::Zero();
-    double radius = 0.0;
+    std::array<double, 2> radii = {0.0, 0.0};
+
+    bool has_axis() const { return form == Form::cylinder || form == Form::cone || form == Form::torus; }
 };
 
 struct CoveredFace {
@@ -47,7 +54,7 @@ struct CoveredFace {
     }
 };
 
-Element element_of(const CoveredFace& face, const ShapeSize& size, double departure) {
+Element element_of(const CoveredFace& face, const AnalyticFeature* feature, const ShapeSize& size, double departure) {
     // A curvature of kappa over a width d lifts a surface by kappa d^2 / 8.
     const double width = face.box.diagonal();
     const auto negligible = [&](double kappa) { return std::abs(kappa) * width * width / 8.0 <= departure; };
@@ -60,42 +67,85 @@ Element element_of(const CoveredFace& face, const ShapeSize& size, double depart
     Element element;
     if (max_zero && min_zero) {
         element.form = Form::plane;
-        element.direction = size.length * c.normal;
+        element.direction = c.normal;
         element.location = c.normal.dot(c.point - size.centroid) * c.normal;
     } else if ((max_zero && min_constant) || (min_zero && max_constant)) {
         const double kappa = min_zero ? c.kappa_max : c.kappa_min;
         const Vector3 axis = min_zero ? c.direction_min : c.direction_max;
         const Vector3 centre = c.point - c.normal / kappa - size.centroid;
-        element = {Form::cylinder, size.length * axis, centre - axis.dot(centre) * axis, std::abs(1.0 / kappa)};
+        element = {Form::cylinder, axis, centre - axis.dot(centre) * axis, {std::abs(1.0 / kappa), 0.0}};
     } else if (max_constant && min_constant && negligible(c.kappa_max - c.kappa_min)) {
-        element = {Form::sphere, Vector3::Zero(), c.point - c.normal / c.mean(), std::abs(1.0 / c.mean())};
+        element = {Form::sphere,
+                   Vector3::Zero(),
+                   c.point - c.normal / c.mean() - size.centroid,
+                   {std::abs(1.0 / c.mean()), 0.0}};
+    } else if (feature && (feature->kind == SurfaceKind::cone || feature->kind == SurfaceKind::torus)) {
+        element = {feature->kind == SurfaceKind::cone ? Form::cone : Form::torus,
+                   feature->direction,
+                   feature->point - size.centroid,
+                   {feature->radius, feature->minor_radius}};
     } else if (max_zero || min_zero) {
         element.form = Form::developable;
     }
     return element;
 }
 
-bool same(const Element& a, const Element& b, double tolerance) {
-    if (a.form != b.form || a.form == Form::developable || a.form == Form::free) return false;
-    const double turn = std::min((a.direction - b.direction).norm(), (a.direction + b.direction).norm());
-    return turn <= tolerance && (a.location - b.location).norm() <= tolerance &&
-           std::abs(a.radius - b.radius) <= tolerance;
-}
+/// Sets of elementary surfaces, with what conventions of design make equal counted once.
+class Conditions {
+public:
+    Conditions(double length, double tolerance) : length_(length), tolerance_(tolerance) {}
 
-int equations(Form form) {
-    switch (form) {
-        case Form::plane:
-            return 1;
-        case Form::cylinder:
-            return 3;
-        case Form::sphere:
-        case Form::developable:
-            return 4;
-        case Form::free:
-            return free_form_equations;
+    void add(const Element& element) {
+        if (element.form == Form::developable || element.form == Form::free) {
+            count_ += element.form == Form::free ? free_form_equations : developable_equations;
+            any_direction_ = true;
+            return;
+        }
+        const auto same = [&](const Element& other) {
+            return element.form == other.form && parallel(element, other) &&
+                   (element.location - other.location).norm() <= tolerance_ &&
+                   std::abs(element.radii[0] - other.radii[0]) <= tolerance_ &&
+                   std::abs(element.radii[1] - other.radii[1]) <= tolerance_;
+        };
+        if (std::any_of(elements_.begin(), elements_.end(), same)) return;
+        if (element.form == Form::plane || element.form == Form::cone || element.form == Form::torus) ++count_;
+        if (element.form == Form::sphere) count_ += 3;
+        const auto in_line = [&](const Element& other) {
+            const Vector3 apart = element.location - other.location;
+            return other.has_axis() && parallel(element, other) &&
+                   (apart - apart.dot(element.direction) * element.direction).norm() <= tolerance_;
+        };
+        if (element.has_axis() && std::none_of(elements_.begin(), elements_.end(), in_line)) count_ += 2;
+        for (const double radius : element.radii) {
+            const auto equal = [&](double other) { return std::abs(radius - other) <= tolerance_; };
+            if (radius == 0.0 || std::any_of(radii_.begin(), radii_.end(), equal)) continue;
+            radii_.push_back(radius);
+            ++count_;
+        }
+        elements_.push_back(element);
     }
-    return 0;
-}
+
+    int count() const { return count_ - (any_direction_ ? 0 : free_turns()); }
+
+private:
+    bool parallel(const Element& a, const Element& b) const {
+        return length_ * std::min((a.direction - b.direction).norm(), (a.direction + b.direction).norm()) <= tolerance_;
+    }
+
+    int free_turns() const {
+        const auto directed = [](const Element& element) { return element.form != Form::sphere; };
+        const auto first = std::find_if(elements_.begin(), elements_.end(), directed);
+        if (first == elements_.end()) return 3;
+        const auto across = [&](const Element& other) { return directed(other) && !parallel(*first, other); };
+        return std::any_of(first, elements_.end(), across) ? 0 : 1;
+    }
+
+    double length_, tolerance_;  ///< mm
+    int count_ = 0;
+    bool any_direction_ = false;
+    std::vector<Element> elements_;
+    std::vector<double> radii_;
+};
 
 }  // namespace
 
@@ -106,22 +156,21 @@ int satisfied_equations(const PreparedModel& model, const std::vector<double>& d
     for (std::size_t i = 0; i < samples.size(); ++i)
         if (distances[i] <= tolerance) faces[samples[i].at.face].add(samples[i].curvature);
 
+    std::map<int, const AnalyticFeature*> features;
+    for (const AnalyticFeature& feature : model.features.analytic)
+        for (const int number : feature.faces) features[number] = &feature;
+
     const ShapeSize size = shape_size(model.features);
     const double own_tolerance = tolerance / scale;
-    std::vector<Element> elements;
-    int sum = 0;
+    Conditions conditions(size.length, same_surface * own_tolerance);
     for (const auto& [number, face] : faces) {
         if (face.count < fewest_samples) continue;
-        const Element element = element_of(face, size, elementary_departure * own_tolerance);
-        const bool known = std::any_of(elements.begin(), elements.end(), [&](const Element& other) {
-            return same(element, other, same_surface * own_tolerance);
-        });
-        if (known) continue;
-        elements.push_back(element);
-        sum += equations(element.form);
-        if (sum >= free_form_equations) return free_form_equations;
+        const auto feature = features.find(number);
+        conditions.add(element_of(face, feature == features.end() ? nullptr : feature->second, size,
+                                  elementary_departure * own_tolerance));
+        if (conditions.count() >= free_form_equations) return free_form_equations;
     }
-    return sum;
+    return std::max(conditions.count(), 0);
 }
 
 }  // namespace umbilic

@@ -14,13 +14,16 @@ inline constexpr int free_form_equations = 12;
 /// A face counts as a plane, cylinder or sphere if it departs from one by less than this many tolerances.
 inline constexpr double elementary_departure = 3.0;
 
-/// Number of independent conditions, beyond directions that design conventions make parallel or square, which the
-/// covered part of a model satisfies by lying on the other one: 1 for each plane (its offset), 3 for a cylinder (axis
-/// and radius), 4 for a sphere (centre and radius), 4 for another developable surface, free_form_equations for any
-/// other. Coplanar planes and equal cylinders and spheres count once. Elementary surfaces are told from the curvatures
-/// of the samples, whatever form their file gave them. A pose with free scale uses up four (translation and scale):
-/// what exceeds that is evidence; a single plane, cylinder or sphere is none. `distances`: of the model's samples from
-/// the other model; `tolerance`: in the same unit, mm of the other model, which is `scale` mm of the model itself.
+/// Number of independent conditions, beyond those that design conventions set (directions parallel or square, axes in
+/// line, equal radii, usual angles of cones), which the covered part of a model satisfies by lying on the other one: 1
+/// for each plane (its offset), 2 for each axis, 3 for each sphere (centre), 1 for the place of a cone or torus on its
+/// axis, 1 for each different radius, 4 for another developable surface, free_form_equations for any other. Coplanar
+/// planes and equal surfaces count once. Elementary surfaces are told from the curvatures of the samples, whatever form
+/// their file gave them, cones and tori from the model's analytic features. Taken off are the turns that directions do
+/// not fix: 1 where all are parallel, 3 where there are none. A pose with free scale uses up four more (translation and
+/// scale): what exceeds that is evidence; a single plane, cylinder, cone, sphere or torus is none. `distances`: of the
+/// model's samples from the other model; `tolerance`: in the same unit, mm of the other model, which is `scale` mm of
+/// the model itself.
 int satisfied_equations(const PreparedModel& model, const std::vector<double>& distances, double tolerance,
                         double scale);
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <umbilic/core/errors.h>
+#include <umbilic/matching/by_analytic_faces.h>
 #include <umbilic/matching/by_curvature_points.h>
 #include <umbilic/matching/by_moments.h>
 #include <umbilic/matching/by_principal_frame.h>
@@ -20,13 +21,14 @@ namespace umbilic {
 
 namespace {
 
-/// Poses of one method that are refined. Moments: a cube has 48 symmetries.
-constexpr int refined_poses = 16, refined_moments = 48;
+/// Poses of one method that are refined. Moments and analytic faces: a cube has 48 symmetries. Open: all are as good.
+constexpr int refined_poses = 16, refined_moments = 48, refined_analytic = 48, refined_open = 12;
 /// How far the hypotheses of a method may be off, as a part of the suspect's length: one umbilic of a re-approximated
 /// copy turns by a few degrees, sampled rotations are up to 15 degrees off, given pairs and poses may be rough, a
-/// principal frame comes from the nearest sample, votes of the method kh agree within 0.05.
-constexpr double umbilics_error = 0.08, moments_error = 0.25, given_error = 0.25, curvature_error = 0.15,
-                 kh_error = 0.1;
+/// principal frame comes from the nearest sample, votes of the method kh agree within 0.05; analytic faces are known to
+/// rounding or, approximated, to 3e-3.
+constexpr double analytic_error = 5e-3, umbilics_error = 0.08, moments_error = 0.25, given_error = 0.25,
+                 curvature_error = 0.15, kh_error = 0.1;
 /// Seeds looked up without the third order; on exact and re-approximated surfaces nearly every single seed succeeds.
 constexpr int second_order_seeds = 6;
 
@@ -112,10 +114,18 @@ Alignment match(const PreparedModel& original, const PreparedModel& suspect, con
     };
 
     if (options.initial || !options.pairs.empty())
-        consider(given_poses(options), refined_poses, given_error, progress.part(0.0, 0.1));
+        consider(given_poses(options), refined_poses, given_error, progress.part(0.0, 0.05));
+    bool conclusive = false;
     const auto wanted = [&](MethodChoice method) {
-        return (options.method == MethodChoice::automatic || options.method == method) && !settled(search);
+        return (options.method == MethodChoice::automatic || options.method == method) && !conclusive &&
+               !settled(search);
     };
+    if (wanted(MethodChoice::analytic)) {
+        const Proposals proposals =
+            poses_by_analytic_faces(original, suspect, options.scale, options.mirror, progress.part(0.05, 0.08));
+        consider(proposals, proposals.open ? refined_open : refined_analytic, analytic_error, progress.part(0.08, 0.1));
+        conclusive = proposals.conclusive;
+    }
     if (wanted(MethodChoice::umbilics))
         consider(poses_by_umbilics(original, suspect, options.scale, options.mirror,
                                    options.umbilic_invariant_tolerance, progress.part(0.1, 0.3)),

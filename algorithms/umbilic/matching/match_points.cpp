@@ -323,9 +323,10 @@ private:
 };
 
 void check_method(const MatchOptions& options) {
-    if (options.method == MethodChoice::umbilics || options.method == MethodChoice::moments)
+    if (options.method == MethodChoice::umbilics || options.method == MethodChoice::moments ||
+        options.method == MethodChoice::analytic)
         throw Unsupported(
-            "match: points have neither umbilics nor moments of their own; use --method auto, or fit a surface first "
+            "match: points have neither umbilics nor moments nor analytic faces of their own; use --method auto, or fit a surface first "
             "(umbilic fit)");
 }
 

@@ -18,6 +18,9 @@ struct PoseHypothesis {
 /// What one method proposes.
 struct Proposals {
     std::vector<PoseHypothesis> poses;  ///< most promising first
+    bool open = false;  ///< some of many poses: the method leaves motions free
+    /// Whatever poses there are, they are among these: no other method need be asked.
+    bool conclusive = false;
     std::string why;  ///< what was compared, or why nothing could be proposed; a clause without full stop
 };
 

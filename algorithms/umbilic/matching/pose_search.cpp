@@ -181,8 +181,9 @@ bool PoseSearch::approach(ScoredPose& pose, const Points& points, double start_c
     const RefineOptions options{.scale = larger_suspect ? options_.scale.inverse() : options_.scale,
                                 .start_cutoff = start_cutoff,
                                 .maximum_steps = approaching_steps};
-    if (!lay(pose, larger_suspect ? suspect_samples_ : original_samples_,
-             all.first(std::min(approaching_points, all.size())), options, progress))
+    // What is near needs no approach: samples would only take it farther away.
+    if (start_cutoff > near_cutoff && !lay(pose, larger_suspect ? suspect_samples_ : original_samples_,
+                                           all.first(std::min(approaching_points, all.size())), options, progress))
         return false;
     measure(pose, original_samples_, suspect_samples_);
     return true;

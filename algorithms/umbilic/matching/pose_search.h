@@ -56,7 +56,8 @@ private:
     struct Points {
         std::vector<WeightedPoint> original, suspect;
     };
-    /// Brings a rough pose near with a few points on the tables of samples; false if too little comes to lie.
+    /// Brings a rough pose near with a few points on the tables of samples, on which it is then measured; false if too
+    /// little comes to lie.
     bool approach(ScoredPose& pose, const Points& points, double start_cutoff, const Progress& progress) const;
     /// Refines a near pose on the surfaces themselves and measures it; false if too little comes to lie.
     bool refine_exactly(ScoredPose& pose, const Points& points, double start_cutoff, const Progress& progress) const;

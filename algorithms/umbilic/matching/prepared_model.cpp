@@ -7,16 +7,17 @@ namespace umbilic {
 
 namespace {
 
-/// Part of the features that the search for umbilics takes, and of all that features take; for the progress report
-/// only.
-constexpr double umbilics_share = 0.8, features_share = 0.8;
+/// Parts of the features done after the search for umbilics and after the samples, and of all that features take; for
+/// the progress report only.
+constexpr double umbilics_share = 0.8, samples_share = 0.95, features_share = 0.8;
 
 }  // namespace
 
 Features extract_features(const Model& model, const FeatureOptions& options, const Progress& progress) {
     Features features;
     features.umbilics = find_umbilics(model, options.umbilics, progress.part(0.0, umbilics_share));
-    features.samples = area_samples(model, options.samples, progress.part(umbilics_share, 1.0));
+    features.samples = area_samples(model, options.samples, progress.part(umbilics_share, samples_share));
+    features.analytic = analytic_features(model, features.samples, progress.part(samples_share, 1.0));
     return features;
 }
 

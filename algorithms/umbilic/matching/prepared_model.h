@@ -6,6 +6,7 @@
 #include <umbilic/core/progress.h>
 #include <umbilic/curves/closest_point.h>
 #include <umbilic/differential/area_samples.h>
+#include <umbilic/matching/analytic_features.h>
 #include <umbilic/matching/principal_frame_table.h>
 #include <umbilic/model/model.h>
 #include <umbilic/umbilics/find.h>
@@ -22,12 +23,13 @@ struct FeatureOptions {
 struct Features {
     std::vector<FaceUmbilics> umbilics;  ///< one entry a face, in the model's order
     std::vector<AreaSample> samples;
+    std::vector<AnalyticFeature> analytic;  ///< planes, cylinders and the like that its faces lie on
 };
 
 Features extract_features(const Model& model, const FeatureOptions& options = {}, const Progress& progress = {});
 
-/// A model with everything computed once for it: features, the tree for closest points, and the table in which principal
-/// frames and nearest samples are looked up. Keeps a reference to the model.
+/// A model with everything computed once for it: features, the tree for closest points, and the table in which
+/// principal frames and nearest samples are looked up. Keeps a reference to the model.
 struct PreparedModel {
     const Model& model;
     Features features;

@@ -225,6 +225,7 @@ Refinement refine(const GroundSurface& original, std::span<const WeightedPoint> 
         if (!(equations.weight > 0.0)) return result;
         result.rms = std::sqrt(equations.square / equations.weight);
         result.normal_matrix = equations.unweighted;
+        result.centre = equations.centre;
         result.scale_deviation = scale_deviation(equations) / result.radius;
 
         Vector7 step = solve(equations, free_scale);

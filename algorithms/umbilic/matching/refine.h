@@ -42,6 +42,7 @@ struct Refinement {
     /// translation, log(scale) times radius, with radius = half the moved suspect's length, about the centroid of those
     /// points.
     Matrix7 normal_matrix = Matrix7::Zero();
+    Vector3 centre = Vector3::Zero();  ///< that centroid, mm of the original
     double radius = 0.0;           ///< mm of the original
     double scale_deviation = 0.0;  ///< standard deviation of log(scale) from residuals and normal matrix; infinity
                                    ///< where the scale is not determined
