@@ -33,6 +33,8 @@ constexpr double forward_cosine = 0.7;
 constexpr int trim_samples = 4, halvings = 50;
 /// Steps of Newton's method for the length of the last step of a line or piece.
 constexpr int cut_corrections = 3;
+/// A line meets a knot line, and does not run along it, if the sine of the angle between them is above this.
+constexpr double meeting_sine = 1e-6;
 /// Rounding of a parameter relative to its domain.
 constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
 
@@ -318,6 +320,13 @@ struct LineRun {
         }
     }
 
+    /// Sine of the angle from the knot line on which parameter k is constant to a tangent; positive where k grows.
+    static double across(const FieldValue& at, const Vector3& direction, int k) {
+        const Vector3 along = (k == 0 ? at.r_v : at.r_u).normalized();
+        const double sine = along.cross(direction).norm();
+        return at.rates(direction)[k] < 0.0 ? -sine : sine;
+    }
+
     /// Goes on into the piece beyond the knot line on which x lies. False if there is none.
     bool enter_next(int k, bool up) {
         const KnotVector& knots = k == 0 ? surface().u_knots() : surface().v_knots();
@@ -339,7 +348,10 @@ struct LineRun {
             line.ended = CurveEnd::boundary;
             return false;
         }
-        if (tracer.indeterminate(latest) || latest_tangent.dot(tangent) < forward_cosine) {
+        // Where curvature jumps, the directions of both pieces may lead to the knot line: no line goes on from there.
+        const double sense = up ? 1.0 : -1.0;
+        const bool thrown_back = sense * across(latest, latest_tangent, k) < -meeting_sine;
+        if (tracer.indeterminate(latest) || latest_tangent.dot(tangent) < forward_cosine || thrown_back) {
             line.ended = CurveEnd::umbilic;
             return false;
         }
@@ -423,6 +435,11 @@ TracedLine LineTracer::trace(const Vector2& start, CurvatureFamily family, const
     while (true) {
         progress.check();
         if (run.s >= options.length * (1 - rounding)) break;
+        if (run.line.steps.size() >= options.most_steps) {
+            run.line.ended = CurveEnd::umbilic;
+            run.line.stuck = true;
+            break;
+        }
         if (!run.advance()) break;
         const bool within = run.leave_piece();
         if (run.crosses_loop() || run.closes() || !within) break;

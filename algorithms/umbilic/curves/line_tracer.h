@@ -65,6 +65,7 @@ struct TraceOptions {
     double longest_step = 0.0;                 ///< mm
     bool close = true;                         ///< stop where the line comes back to its start
     double closing_distance = 0.0;             ///< mm: a line that passes its start within this distance is closed
+    std::size_t most_steps = 1'000'000;        ///< a line that needs more is stuck
     std::function<bool(const Vector2&)> stop;  ///< asked after each step with the parameters reached
 };
 

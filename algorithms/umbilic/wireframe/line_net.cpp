@@ -33,6 +33,7 @@ constexpr double same_side = 0.3;
 constexpr double relative_tolerance = 1e-7;
 /// A line ends after this many steps of the net at the latest.
 constexpr double longest_line = 400.0;
+constexpr std::size_t most_line_steps = 40'000;
 /// Newton's method on (s1, s2).
 constexpr int most_corrections = 12;
 constexpr double relative_correction = 1e-11;
@@ -122,7 +123,8 @@ private:
         return {.length = longest_line * step_,
                 .tolerance = relative_tolerance * step_,
                 .longest_step = step_,
-                .closing_distance = 1e-3 * step_};
+                .closing_distance = 1e-3 * step_,
+                .most_steps = most_line_steps};
     }
     bool crowded(const Sample& sample, CurvatureFamily family, double distance) const;
     bool near(const Sample& sample, const Line& line, int number, double distance) const;
