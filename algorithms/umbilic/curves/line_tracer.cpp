@@ -198,10 +198,8 @@ struct LineRun {
     /// Tries a step of length `step` at most; on success it is appended to the line, which then ends at x, and its
     /// exit from the piece is not yet looked at. False if the line cannot go on.
     bool advance() {
-        const State x0 = state(x);
-        rates(x);
         start_tangent = tangent;
-        const State d0 = state(latest.rates(tangent));
+        const State x0 = state(x), d0 = state(here.rates(tangent));
         while (true) {
             const double h = std::min(step, options.length - s);
             State x1, d1, error;
@@ -264,7 +262,7 @@ struct LineRun {
             last.end_rate = vector(d1);
             last.middle = vector(middle);
             const double correction = excess(last.end) / slope(last.end_rate);
-            if (!(std::abs(correction) < 0.1 * h)) break;
+            if (!(std::abs(correction) < 0.1 * h) || std::abs(correction) <= rounding * h) break;
             h -= correction;
         }
         s = last.s + last.length;
@@ -401,9 +399,7 @@ struct LineRun {
                 .dot(first_tangent);
         };
         // A step is short against the line's radius, so the start can only be passed where both ends are near.
-        const Vector3 end =
-            surface().piece_derivatives(last.piece[0], last.piece[1], last.end.x(), last.end.y(), 0).r();
-        if ((end - first_point).norm() > 2 * last.length || s < 4 * options.closing_distance) return false;
+        if ((here.point - first_point).norm() > 2 * last.length || s < 4 * options.closing_distance) return false;
         if (!(ahead(0.0) < 0.0 && ahead(1.0) >= 0.0)) return false;
         double low = 0.0, high = 1.0;
         for (int n = 0; n < halvings; ++n) {
@@ -443,7 +439,7 @@ TracedLine LineTracer::trace(const Vector2& start, CurvatureFamily family, const
         if (!run.advance()) break;
         const bool within = run.leave_piece();
         if (run.crosses_loop() || run.closes() || !within) break;
-        if (options.stop && options.stop(run.x)) break;
+        if (options.stop && options.stop(run.here)) break;
         if (indeterminate(run.here)) {
             run.line.ended = CurveEnd::umbilic;
             break;
