@@ -20,6 +20,7 @@ namespace {
 struct CompareWords {
     MatchWords match;
     ToleranceChoices tolerances;
+    NodeChoice nodes = CompareOptions().nodes;
     int algorithm = CompareOptions().algorithm;
     std::string report;
     std::optional<Level> fail_on;
@@ -57,6 +58,7 @@ int run_compare(const Session& session, CompareWords& words) {
     options.features = words.match.features;
     options.match = words.match.match;
     options.tolerances = words.tolerances;
+    options.nodes = words.nodes;
     options.algorithm = words.algorithm;
     const bool with_report = !words.report.empty();
     if (with_report) check_report_folder(words.report);
@@ -107,6 +109,13 @@ void add_compare(CLI::App& application, Session& session, Command& command) {
         ->add_option("--cell", words->tolerances.cell, "Cell of the local similarity, relative to a face's domain")
         ->check(CLI::Range(1e-3, 1.0))
         ->group("Tolerances");
+    subcommand
+        ->add_option("--nodes", words->nodes,
+                     "Where the models are compared: at nodes of the wireframe (default) or of samples uniform by area")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, NodeChoice>{{"wireframe", NodeChoice::wireframe},
+                                                                              {"area", NodeChoice::area}})
+                        .description(""))
+        ->type_name("wireframe|area");
     subcommand->add_option("--algorithm", words->algorithm, "Decision algorithm that gives the level: 1 or 2")
         ->check(CLI::IsMember({1, 2}))
         ->type_name("1|2");

@@ -3,6 +3,8 @@
 
 #include <chrono>
 
+#include <tbb/parallel_invoke.h>
+
 #include <umbilic/similarity/assess.h>
 
 namespace umbilic {
@@ -22,11 +24,22 @@ Comparison compare(const PreparedModel& original, const PreparedModel& suspect, 
     if (!match_options.tolerance) match_options.tolerance = options.tolerances.distance;
 
     timed("match", [&] { result.alignment = match(original, suspect, match_options, progress.part(0.0, 0.6)); });
-    if (result.alignment.status != AlignmentStatus::not_found)
+    if (result.alignment.status != AlignmentStatus::not_found) {
+        AssessedNodes nodes;
+        timed("nodes", [&] {
+            const auto of = [&](const PreparedModel& model, const Progress& part) {
+                return options.nodes == NodeChoice::wireframe
+                           ? wireframe_nodes(model, options.features.samples.count, part)
+                           : area_nodes(model);
+            };
+            tbb::parallel_invoke([&] { nodes.original = of(original, progress.part(0.6, 0.65)); },
+                                 [&] { nodes.suspect = of(suspect, progress.part(0.65, 0.7)); });
+        });
         timed("assess", [&] {
             result.assessment =
-                assess(original, suspect, result.alignment, options.tolerances, progress.part(0.6, 1.0));
+                assess(original, suspect, nodes, result.alignment, options.tolerances, progress.part(0.7, 1.0));
         });
+    }
     timed("decide", [&] {
         result.verdict = decide(result.alignment, result.assessment, options.algorithm);
         result.answer = answer(original.model, suspect.model, result.alignment, result.assessment, result.verdict);

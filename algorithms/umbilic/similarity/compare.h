@@ -7,6 +7,7 @@
 
 #include <umbilic/matching/match.h>
 #include <umbilic/similarity/verdict.h>
+#include <umbilic/similarity/wireframe_nodes.h>
 
 namespace umbilic {
 
@@ -14,6 +15,7 @@ struct CompareOptions {
     FeatureOptions features;
     MatchOptions match;
     ToleranceChoices tolerances;
+    NodeChoice nodes = NodeChoice::wireframe;
     int algorithm = 2;  ///< decision algorithm that gives the verdict's level, 1 or 2
 };
 
