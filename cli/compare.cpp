@@ -109,6 +109,13 @@ void add_compare(CLI::App& application, Session& session, Command& command) {
         ->check(CLI::Range(1e-3, 1.0))
         ->group("Tolerances");
     subcommand
+        ->add_option("--nodes", words->match.options.nodes,
+                     "Where the models are compared: at nodes of the wireframe (default) or of samples uniform by area")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, NodeChoice>{{"wireframe", NodeChoice::wireframe},
+                                                                              {"area", NodeChoice::area}})
+                        .description(""))
+        ->type_name("wireframe|area");
+    subcommand
         ->add_option("--algorithm", words->match.options.algorithm, "Decision algorithm that gives the level: 1 or 2")
         ->check(CLI::IsMember({1, 2}))
         ->type_name("1|2");

@@ -14,6 +14,7 @@
 #include <cli/console.h>
 #include <cli/curve_words.h>
 #include <cli/exit_status.h>
+#include <cli/finite_numbers.h>
 #include <cli/loading.h>
 #include <report/json_curves.h>
 #include <report/readable.h>
@@ -34,14 +35,14 @@ struct CurveOptions {
 
 void add_curve_options(CLI::App& subcommand, CurveOptions& options) {
     subcommand.add_option("--length", options.length, "Arc length at which the curve ends, mm")
-        ->check(CLI::PositiveNumber);
+        ->check(finite_number(false));
     subcommand
         .add_option("--spacing", options.spacing,
                     "Distance between the points of the result, mm; as the integration needs them by default")
-        ->check(CLI::NonNegativeNumber);
+        ->check(finite_number(true));
     subcommand
         .add_option("--tolerance", options.tolerance, "Error of a step of the integration, relative to √area of a face")
-        ->check(CLI::PositiveNumber);
+        ->check(finite_number(false));
     subcommand.add_option("-o,--output", options.output, "STEP file for the curves");
 }
 
@@ -114,7 +115,7 @@ void add_lines_of_curvature(CLI::App& curve, Session& session, Command& command)
     auto* const subcommand = curve.add_subcommand("lines-of-curvature", "The lines of curvature through a point");
     const auto options = std::make_shared<Options>();
     subcommand->add_option("FILE", options->path, "STEP, IGES or BREP file")->required();
-    subcommand->add_option("--face", options->face, "Face of the start, from 1")->check(CLI::PositiveNumber);
+    subcommand->add_option("--face", options->face, "Face of the start, from 1")->check(finite_number(false));
     subcommand->add_option("--start", options->start, "Start U,V, parameters of the face's surface")->required();
     subcommand->add_option("--family", options->family, "maximum, minimum or both (default)")
         ->check(CLI::IsMember({"maximum", "minimum", "both"}));
@@ -147,20 +148,20 @@ void add_geodesic(CLI::App& curve, Session& session, Command& command) {
         curve.add_subcommand("geodesic", "The geodesics between two points, or the one that leaves a point");
     const auto options = std::make_shared<Options>();
     subcommand->add_option("FILE", options->path, "STEP, IGES or BREP file")->required();
-    subcommand->add_option("--face", options->face, "Face of the first point, from 1")->check(CLI::PositiveNumber);
+    subcommand->add_option("--face", options->face, "Face of the first point, from 1")->check(finite_number(false));
     subcommand->add_option("--from", options->from, "First point U,V, parameters of the face's surface")->required();
     auto* const to = subcommand->add_option("--to", options->to, "Last point U,V");
     subcommand->add_option("--to-face", options->to_face, "Face of the last point, if another one")
-        ->check(CLI::PositiveNumber)
+        ->check(finite_number(false))
         ->needs(to);
     subcommand->add_option("--direction", options->direction, "Instead of --to: direction X,Y,Z; needs --length")
         ->excludes(to);
     subcommand
         ->add_option("--longest", options->longest, "Longest geodesic to look for, mm (twice the model's diagonal)")
-        ->check(CLI::PositiveNumber)
+        ->check(finite_number(false))
         ->needs(to);
     subcommand->add_option("--most", options->most, "Geodesics to return at most")
-        ->check(CLI::PositiveNumber)
+        ->check(finite_number(false))
         ->needs(to);
     subcommand->add_flag("--one-face", options->one_face, "Do not go on to other faces over smooth edges");
     add_curve_options(*subcommand, *options);
@@ -268,10 +269,10 @@ void add_project(CLI::App& curve, Session& session, Command& command) {
         ->required();
     subcommand->add_option("ONTO", options->onto_path, "STEP, IGES or BREP file of the face to project onto")
         ->required();
-    subcommand->add_option("--onto-face", options->onto_face, "Face of ONTO, from 1")->check(CLI::PositiveNumber);
+    subcommand->add_option("--onto-face", options->onto_face, "Face of ONTO, from 1")->check(finite_number(false));
     subcommand->add_option("--foot", options->foot,
                            "Foot U,V of the curve's start on that face; the closest point by default");
-    subcommand->add_option("--face", options->face, "Face of CURVE on which it starts")->check(CLI::PositiveNumber);
+    subcommand->add_option("--face", options->face, "Face of CURVE on which it starts")->check(finite_number(false));
     auto* const start = subcommand->add_option("--start", options->start, "Start U,V on that face");
     subcommand->add_option("--family", options->family, "geodesic (default), or line of curvature: maximum, minimum")
         ->check(CLI::IsMember({"geodesic", "maximum", "minimum"}))

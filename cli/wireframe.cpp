@@ -4,11 +4,13 @@
 #include <string>
 #include <vector>
 
+#include <umbilic/core/errors.h>
 #include <umbilic/wireframe/wireframe.h>
 
 #include <cli/commands.h>
 #include <cli/console.h>
 #include <cli/exit_status.h>
+#include <cli/finite_numbers.h>
 #include <cli/loading.h>
 #include <occ_adapter/read_file.h>
 #include <report/json_wireframe.h>
@@ -55,13 +57,13 @@ void add_wireframe(CLI::App& application, Session& session, Command& command) {
         application.add_subcommand("wireframe", "Nodes, edges and cells that depend on the shape alone");
     const auto options = std::make_shared<Options>();
     subcommand->add_option("FILE", options->path, "STEP, IGES or BREP file")->required();
-    subcommand->add_option("--face", options->wireframe.face, "Only this face, from 1")->check(CLI::PositiveNumber);
+    subcommand->add_option("--face", options->wireframe.face, "Only this face, from 1")->check(finite_number(false));
     auto* const step = subcommand->add_option("--step", options->wireframe.step, "Distance of neighbouring lines, mm")
-                           ->check(CLI::PositiveNumber);
+                           ->check(finite_number(false));
     subcommand
         ->add_option("--relative_step", options->wireframe.relative_step,
                      "The same relative to the square root of the model's area")
-        ->check(CLI::PositiveNumber)
+        ->check(finite_number(false))
         ->excludes(step);
     subcommand->add_option("-o,--output", options->output, "STEP file for the edges");
     add_common_options(*subcommand, session);
@@ -75,7 +77,14 @@ void add_wireframe(CLI::App& application, Session& session, Command& command) {
                                            [&](const Face& face) { return face.number == wanted; }))
                 throw WrongUse(options->path + ": has no face " + std::to_string(wanted) +
                                "; umbilic info lists its faces");
-            const Wireframe found = wireframe(model, options->wireframe, progress.part(0.3, 1.0));
+            const Wireframe found = [&] {
+                try {
+                    return wireframe(model, options->wireframe, progress.part(0.3, 1.0));
+                } catch (const InvalidInput& error) {
+                    // The file is read; only the options can be wrong.
+                    throw WrongUse(options->path + ": " + error.what());
+                }
+            }();
             if (!options->output.empty()) write_curves_step(curves(found), options->output);
             clear_progress_bar();
             print(session, bold(printable(options->path)) + "\n" + summary(model, found));

@@ -89,6 +89,15 @@ Json similarity_json(const Assessment& assessment) {
             {"direction", local(assessment.direction)}};
 }
 
+/// How many nodes each model was compared at, by where they come from.
+Json nodes_json(const Assessment& assessment) {
+    const auto counts = [](const DirectedComparison& comparison) -> Json {
+        return {{"wireframe", comparison.of_wireframe},
+                {"area", static_cast<int>(comparison.nodes.size()) - comparison.of_wireframe}};
+    };
+    return {{"original", counts(assessment.original_on_suspect)}, {"suspect", counts(assessment.suspect_on_original)}};
+}
+
 Json coverage_json(const Alignment& alignment, const Assessment& assessment) {
     const bool assessed = !assessment.suspect_on_original.nodes.empty();
     Json faces = Json::array();
@@ -190,6 +199,7 @@ Json compare_json(const PreparedShape& original, const PreparedShape& suspect, c
             {"parameters", parameters_json(compare_parameters(options, comparison))},
             {"alignment", alignment_json(comparison.alignment)},
             {"tests", tests_json(original, suspect, comparison.assessment)},
+            {"nodes", nodes_json(comparison.assessment)},
             {"similarity", similarity_json(comparison.assessment)},
             {"coverage", coverage_json(comparison.alignment, comparison.assessment)},
             {"answer", {{"class", name(comparison.answer.kind)}, {"text", comparison.answer.text}}},

@@ -130,6 +130,10 @@ std::vector<Parameter> compare_parameters(const CompareOptions& options, const C
     MatchOptions match_options = options.match;
     if (!match_options.tolerance) match_options.tolerance = options.tolerances.distance;  // as compare() does
     auto parameters = match_parameters(options.features, match_options, comparison.alignment);
+    parameters.push_back(constant("nodes", std::string(name(options.nodes)), std::string(name(CompareOptions().nodes)),
+                                  "",
+                                  "where the models are compared; faces whose wireframe is too small or incomplete "
+                                  "are compared at samples uniform by area"));
     parameters.push_back(constant("algorithm", options.algorithm, CompareOptions().algorithm, "1",
                                   "decision algorithm that gives the level of the verdict"));
     if (comparison.assessment.measured) add_point_parameters(options.points, parameters);

@@ -135,6 +135,9 @@ CompareOptions comparison_options(const py::dict& keywords) {
         } else if (name == "algorithm") {
             options.algorithm = value_of<int>(name, value, "1 or 2");
             if (options.algorithm != 1 && options.algorithm != 2) throw InvalidInput("algorithm: expected 1 or 2");
+        } else if (name == "nodes") {
+            options.nodes =
+                choice_of<NodeChoice>(name, value, {{"wireframe", NodeChoice::wireframe}, {"area", NodeChoice::area}});
         } else if (name == "distance") {
             options.tolerances.distance = positive(name, value);
         } else if (name == "kappa") {

@@ -102,6 +102,39 @@ TEST(CurveCommand, ProjectsItsOwnResultsTablesAndStartedCurves) {
                 1e-5);
 }
 
+TEST(WireframeCommand, RefusesBadWordsAndInput) {
+    const auto expect_wrong = [](std::vector<std::string> words, int status, const std::string& part) {
+        words.insert(words.begin(), "wireframe");
+        const CommandResult result = run_umbilic(words);
+        EXPECT_EQ(result.status, status) << result.error;
+        EXPECT_NE(result.error.find(part), std::string::npos) << result.error;
+        EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
+        EXPECT_LT(result.error.size(), 300u);
+    };
+    const std::string bottle = model_path("bottle.step");
+    for (const std::string step : {"0", "-1", "nan", "inf", "much"}) {
+        expect_wrong({bottle, "--step", step}, 2, "--step");
+        expect_wrong({bottle, "--relative_step", step}, 2, "--relative_step");
+    }
+    expect_wrong({bottle, "--step", "1e-9"}, 2, "choose at least");
+    expect_wrong({bottle, "--step", "1", "--relative_step", "1"}, 2, "excludes");
+    expect_wrong({bottle, "--face", "9"}, 2, "no face 9");
+    expect_wrong({bottle, "--face", "0"}, 2, "--face");
+    expect_wrong({"/nowhere.step"}, 3, "/nowhere.step");
+}
+
+TEST(WireframeCommand, MeshesFacesSmallerThanTheStep) {
+    const CommandResult result =
+        run_umbilic({"wireframe", model_path("bottle.step"), "--step", "1e9", "--quiet", "--json", "-"});
+    ASSERT_EQ(result.status, 0) << result.error;
+    const json found = json::parse(result.output);
+    EXPECT_EQ(found["schema"], "umbilic.wireframe/1");
+    for (const json& face : found["faces"]) {
+        EXPECT_EQ(face["coverage"], 1.0);
+        EXPECT_GE(face["cells"].size(), 1u);
+    }
+}
+
 TEST(CurveCommand, RefusesBadWordsAndInput) {
     const std::string torus = model_path("torus.step"), bottle = model_path("bottle.step");
     expect_error({"lines-of-curvature", torus, "--start", "0.5"}, 2, "--start");
@@ -109,7 +142,12 @@ TEST(CurveCommand, RefusesBadWordsAndInput) {
     expect_error({"lines-of-curvature", torus, "--start", "99,0"}, 2, "outside of face 1");
     expect_error({"lines-of-curvature", bottle, "--start", "0.5,0.5"}, 2, "--face");
     expect_error({"lines-of-curvature", bottle, "--face", "9", "--start", "0.5,0.5"}, 2, "no face 9");
-    expect_error({"lines-of-curvature", torus, "--start", "0.5,0.5", "--length", "-1"}, 2, "--length");
+    for (const std::string number : {"-1", "0", "nan", "inf"})
+        expect_error({"lines-of-curvature", torus, "--start", "0.5,0.5", "--length", number}, 2, "--length");
+    expect_error({"lines-of-curvature", torus, "--start", "0.5,0.5", "--spacing", "-1"}, 2, "--spacing");
+    expect_error({"lines-of-curvature", torus, "--start", "0.5,0.5", "--spacing", "nan"}, 2, "--spacing");
+    expect_error({"lines-of-curvature", torus, "--start", "0.5,0.5", "--tolerance", "0"}, 2, "--tolerance");
+    expect_error({"lines-of-curvature", model_path("planar_block.step"), "--start", "0.1,0.1"}, 3, "umbilic");
     expect_error({"lines-of-curvature", model_path("sphere.igs"), "--start", "0.5,0.5"}, 3, "umbilic");
     expect_error({"geodesic", torus, "--from", "0.5,0.5"}, 2, "--to");
     expect_error({"geodesic", torus, "--from", "0.5,0.5", "--to", "0.5,0.5"}, 3, "the same");

@@ -270,6 +270,63 @@ TEST(LineOfCurvature, StopsAtTrimmingLoops) {
     EXPECT_THROW(line_of_curvature(face, {0.1, 0.9}, CurvatureFamily::minimum), InvalidInput);
 }
 
+/// Graph over [-1, 1]^2 of left u^2 for u < 0, right u^2 for u > 0, and bend |u| v, in two pieces.
+NurbsSurface two_pieces(double left, double right, double bend) {
+    const std::array<double, 5> u = {-1, -0.5, 0, 0.5, 1}, distance = {1, 0.5, 0, 0.5, 1};
+    const std::array<double, 5> square = {left, 0, 0, 0, right};
+    std::vector<Vector3> poles;
+    for (int i = 0; i < 5; ++i)
+        for (const double v : {-1.0, 1.0}) poles.emplace_back(u[i], v, square[i] + bend * distance[i] * v);
+    return NurbsSurface(KnotVector(2, {-1, -1, -1, 0, 0, 1, 1, 1}), KnotVector(1, {-1, -1, 1, 1}), poles);
+}
+
+TEST(LineOfCurvature, EndsWhereBothPiecesLeadToTheirKnotLine) {
+    // The surface bends by 2 bend v along u = 0. With x the angle of a line of the steep family against the knot line,
+    // tan 2 x = bend / 0.05 on the right, where lines run away from it upwards, and the reverse on the left.
+    const double bend = 0.02;
+    const Face face = face_of(two_pieces(0.05, 0.05, bend));
+    const LineTracer tracer(face);
+    for (const double u : {-0.05, 0.05})
+        for (const CurvatureFamily family : {CurvatureFamily::maximum, CurvatureFamily::minimum}) {
+            const Vector2 start(u, 0.5);
+            const FieldValue value = tracer.value(start, family);
+            if (std::abs(value.tangent.y()) < 0.7) continue;
+            const double sense = value.tangent.y() > 0.0 ? 1.0 : -1.0;
+            const Vector3 to_knot = (u * value.tangent.x() > 0.0 ? -1.0 : 1.0) * value.tangent;
+            EXPECT_NEAR(std::abs(std::atan(value.tangent.x() / value.tangent.y())), 0.5 * std::atan(bend / 0.05), 0.01)
+                << sense;
+            const TracedLine line =
+                tracer.trace(start, family, to_knot, {.length = 3.0, .tolerance = 1e-9, .longest_step = 0.1});
+            EXPECT_EQ(line.ended, CurveEnd::umbilic);
+            EXPECT_LT(line.steps.size(), 20u);
+            EXPECT_EQ(line.steps.back().end.x(), 0.0);
+            const TracedLine away =
+                tracer.trace(start, family, -to_knot, {.length = 3.0, .tolerance = 1e-9, .longest_step = 0.1});
+            EXPECT_EQ(away.ended, CurveEnd::boundary);
+        }
+}
+
+TEST(LineOfCurvature, RunsAlongAKnotLineWhereCurvatureJumps) {
+    for (unsigned seed = 0; seed < 20; ++seed) {
+        const Face face = face_of(support::transformed(two_pieces(0.5, 1.0, 0.0),
+                                                       support::random_similarity(seed, 1.0, seed % 2 == 1)));
+        const LineTracer tracer(face);
+        for (const double offset : {0.0, 1e-17, -1e-17, 1e-15, -1e-13}) {
+            const Vector2 start(offset, -0.9);
+            for (const CurvatureFamily family : {CurvatureFamily::maximum, CurvatureFamily::minimum}) {
+                const FieldValue value = tracer.value(start, family);
+                const Vector3 along = value.r_v.normalized();
+                if (std::abs(value.tangent.dot(along)) < 0.7) continue;
+                const TracedLine line =
+                    tracer.trace(start, family, along, {.length = 3.0, .tolerance = 1e-9, .longest_step = 0.1});
+                EXPECT_EQ(line.ended, CurveEnd::boundary);
+                EXPECT_NEAR(line.length, 1.9, 1e-9);
+                EXPECT_LT(line.steps.size(), 60u);
+            }
+        }
+    }
+}
+
 TEST(LineOfCurvature, RefusesWhatHasNoLine) {
     const Face face = face_of(support::torus_quarter(3, 1));
     const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();

@@ -82,13 +82,33 @@ TEST_F(CompareTest, StagesAreTimedAndToleranceChoicesReachTheReport) {
     options.tolerances.distance = 0.01;
     options.algorithm = 1;
     const Comparison c = against({surface()}, options);
-    ASSERT_EQ(c.timing.size(), 3u);
+    ASSERT_EQ(c.timing.size(), 4u);
     EXPECT_EQ(c.timing[0].first, "match");
-    EXPECT_EQ(c.timing[1].first, "assess");
-    EXPECT_EQ(c.timing[2].first, "decide");
+    EXPECT_EQ(c.timing[1].first, "nodes");
+    EXPECT_EQ(c.timing[2].first, "assess");
+    EXPECT_EQ(c.timing[3].first, "decide");
     EXPECT_EQ(find_tolerance(c.assessment.tolerances, "distance").origin, ToleranceOrigin::user);
     EXPECT_EQ(c.verdict.chosen_algorithm, 1);
     EXPECT_EQ(c.verdict.level, c.verdict.algorithm_1.level);
+}
+
+TEST_F(CompareTest, NodesAreThoseOfTheWireframeOrOfTheArea) {
+    const SimilarityTransform pose = support::random_similarity(11, 3.0, false);
+    const std::vector<NurbsSurface> suspect = {support::transformed(surface(), pose)};
+    CompareOptions options;
+    for (const NodeChoice choice : {NodeChoice::wireframe, NodeChoice::area}) {
+        options.nodes = choice;
+        const Comparison c = against(suspect, options);
+        for (const DirectedComparison* directed :
+             {&c.assessment.suspect_on_original, &c.assessment.original_on_suspect}) {
+            const int count = static_cast<int>(directed->nodes.size());
+            EXPECT_EQ(directed->of_wireframe, choice == NodeChoice::wireframe ? count : 0);
+            EXPECT_GT(count, options.features.samples.count / 2);
+            EXPECT_LT(count, options.features.samples.count * 2);
+            EXPECT_LT(directed->distance.max, 1e-6);
+        }
+        EXPECT_GE(c.verdict.level, Level::intermediate);
+    }
 }
 
 TEST_F(CompareTest, WrongChoicesAreRefusedBeforeTheWork) {

@@ -33,6 +33,8 @@ constexpr double forward_cosine = 0.7;
 constexpr int trim_samples = 4, halvings = 50;
 /// Steps of Newton's method for the length of the last step of a line or piece.
 constexpr int cut_corrections = 3;
+/// A line meets a knot line, and does not run along it, if the sine of the angle between them is above this.
+constexpr double meeting_sine = 1e-6;
 /// Rounding of a parameter relative to its domain.
 constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
 
@@ -196,10 +198,8 @@ struct LineRun {
     /// Tries a step of length `step` at most; on success it is appended to the line, which then ends at x, and its
     /// exit from the piece is not yet looked at. False if the line cannot go on.
     bool advance() {
-        const State x0 = state(x);
-        rates(x);
         start_tangent = tangent;
-        const State d0 = state(latest.rates(tangent));
+        const State x0 = state(x), d0 = state(here.rates(tangent));
         while (true) {
             const double h = std::min(step, options.length - s);
             State x1, d1, error;
@@ -262,7 +262,7 @@ struct LineRun {
             last.end_rate = vector(d1);
             last.middle = vector(middle);
             const double correction = excess(last.end) / slope(last.end_rate);
-            if (!(std::abs(correction) < 0.1 * h)) break;
+            if (!(std::abs(correction) < 0.1 * h) || std::abs(correction) <= rounding * h) break;
             h -= correction;
         }
         s = last.s + last.length;
@@ -318,6 +318,13 @@ struct LineRun {
         }
     }
 
+    /// Sine of the angle from the knot line on which parameter k is constant to a tangent; positive where k grows.
+    static double across(const FieldValue& at, const Vector3& direction, int k) {
+        const Vector3 along = (k == 0 ? at.r_v : at.r_u).normalized();
+        const double sine = along.cross(direction).norm();
+        return at.rates(direction)[k] < 0.0 ? -sine : sine;
+    }
+
     /// Goes on into the piece beyond the knot line on which x lies. False if there is none.
     bool enter_next(int k, bool up) {
         const KnotVector& knots = k == 0 ? surface().u_knots() : surface().v_knots();
@@ -339,7 +346,10 @@ struct LineRun {
             line.ended = CurveEnd::boundary;
             return false;
         }
-        if (tracer.indeterminate(latest) || latest_tangent.dot(tangent) < forward_cosine) {
+        // Where curvature jumps, the directions of both pieces may lead to the knot line: no line goes on from there.
+        const double sense = up ? 1.0 : -1.0;
+        const bool thrown_back = sense * across(latest, latest_tangent, k) < -meeting_sine;
+        if (tracer.indeterminate(latest) || latest_tangent.dot(tangent) < forward_cosine || thrown_back) {
             line.ended = CurveEnd::umbilic;
             return false;
         }
@@ -389,9 +399,7 @@ struct LineRun {
                 .dot(first_tangent);
         };
         // A step is short against the line's radius, so the start can only be passed where both ends are near.
-        const Vector3 end =
-            surface().piece_derivatives(last.piece[0], last.piece[1], last.end.x(), last.end.y(), 0).r();
-        if ((end - first_point).norm() > 2 * last.length || s < 4 * options.closing_distance) return false;
+        if ((here.point - first_point).norm() > 2 * last.length || s < 4 * options.closing_distance) return false;
         if (!(ahead(0.0) < 0.0 && ahead(1.0) >= 0.0)) return false;
         double low = 0.0, high = 1.0;
         for (int n = 0; n < halvings; ++n) {
@@ -423,10 +431,15 @@ TracedLine LineTracer::trace(const Vector2& start, CurvatureFamily family, const
     while (true) {
         progress.check();
         if (run.s >= options.length * (1 - rounding)) break;
+        if (run.line.steps.size() >= options.most_steps) {
+            run.line.ended = CurveEnd::umbilic;
+            run.line.stuck = true;
+            break;
+        }
         if (!run.advance()) break;
         const bool within = run.leave_piece();
         if (run.crosses_loop() || run.closes() || !within) break;
-        if (options.stop && options.stop(run.x)) break;
+        if (options.stop && options.stop(run.here)) break;
         if (indeterminate(run.here)) {
             run.line.ended = CurveEnd::umbilic;
             break;

@@ -65,7 +65,8 @@ struct TraceOptions {
     double longest_step = 0.0;                 ///< mm
     bool close = true;                         ///< stop where the line comes back to its start
     double closing_distance = 0.0;             ///< mm: a line that passes its start within this distance is closed
-    std::function<bool(const Vector2&)> stop;  ///< asked after each step with the parameters reached
+    std::size_t most_steps = 1'000'000;           ///< a line that needs more is stuck
+    std::function<bool(const FieldValue&)> stop;  ///< asked after each step with the field at its end
 };
 
 /// Traces lines on one face (thesis 3.3). Within a polynomial piece of the surface the direction is a smooth function;

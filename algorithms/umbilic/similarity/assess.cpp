@@ -67,6 +67,11 @@ std::vector<FaceCoverage> face_coverages(const Model& suspect, const DirectedCom
 
 Assessment assess(const PreparedModel& original, const PreparedModel& suspect, const Alignment& alignment,
                   const ToleranceChoices& choices, const Progress& progress) {
+    return assess(original, suspect, {area_nodes(original), area_nodes(suspect)}, alignment, choices, progress);
+}
+
+Assessment assess(const PreparedModel& original, const PreparedModel& suspect, const AssessedNodes& nodes,
+                  const Alignment& alignment, const ToleranceChoices& choices, const Progress& progress) {
     const double scale = alignment.original_suspect.scale;
     const double size = std::min(original.model.size(), scale * suspect.model.size());
     const double accuracy = stated_accuracy(original.model) + scale * stated_accuracy(suspect.model);
@@ -80,19 +85,21 @@ Assessment assess(const PreparedModel& original, const PreparedModel& suspect, c
 
     const PlacedModel placed_original{.prepared = original, .is_original = true};
     PlacedModel placed_suspect{.prepared = suspect, .original_model = alignment.original_suspect};
-    const Feet suspect_feet = find_feet(placed_suspect, placed_original, progress.part(0.0, 0.45));
-    const Feet original_feet = find_feet(placed_original, placed_suspect, progress.part(0.45, 0.9));
+    const Feet suspect_feet = find_feet(placed_suspect, nodes.suspect, placed_original, progress.part(0.0, 0.45));
+    const Feet original_feet = find_feet(placed_original, nodes.original, placed_suspect, progress.part(0.45, 0.9));
 
     if (!original.model.oriented() || !suspect.model.oriented()) {
         const double limit = spread_factor * distance;
         const double agreement =
-            normal_agreement(placed_suspect, placed_original, suspect_feet, limit) * scale * scale +
-            normal_agreement(placed_original, placed_suspect, original_feet, limit);
+            normal_agreement(placed_suspect, nodes.suspect, placed_original, suspect_feet, limit) * scale * scale +
+            normal_agreement(placed_original, nodes.original, placed_suspect, original_feet, limit);
         placed_suspect.flipped = result.flipped = agreement < 0.0;
     }
     progress.report(0.9, "curvatures");
-    result.suspect_on_original = compare_nodes(placed_suspect, placed_original, suspect_feet, tolerances);
-    result.original_on_suspect = compare_nodes(placed_original, placed_suspect, original_feet, tolerances);
+    result.suspect_on_original =
+        compare_nodes(placed_suspect, nodes.suspect, placed_original, suspect_feet, tolerances);
+    result.original_on_suspect =
+        compare_nodes(placed_original, nodes.original, placed_suspect, original_feet, tolerances);
     result.weak_passed = passes_weak(result);
     result.intermediate_passed = result.weak_passed && passes_intermediate(result);
 

@@ -38,6 +38,7 @@ struct NodeComparison {
 /// The nodes of one model against the other.
 struct DirectedComparison {
     std::vector<NodeComparison> nodes;
+    int of_wireframe = 0;  ///< so many of them are nodes of the wireframe; the others are spread uniformly by area
     /// Over all nodes where the scope is global; over the overlap (distance within spread_factor times the weak test's
     /// tolerance, see thresholds.h) where it is partial.
     Statistics distance, kappa_max, kappa_min, direction;

@@ -8,6 +8,7 @@
 #include <umbilic/matching/match.h>
 #include <umbilic/matching/prepared_shape.h>
 #include <umbilic/similarity/verdict.h>
+#include <umbilic/similarity/wireframe_nodes.h>
 
 namespace umbilic {
 
@@ -16,6 +17,7 @@ struct CompareOptions {
     PointFeatureOptions points;  ///< of measured points
     MatchOptions match;
     ToleranceChoices tolerances;
+    NodeChoice nodes = NodeChoice::wireframe;
     int algorithm = 2;  ///< decision algorithm that gives the verdict's level, 1 or 2
 };
 

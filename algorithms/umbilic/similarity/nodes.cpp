@@ -58,13 +58,13 @@ Curvature placed(const Curvature& curvature, const PlacedModel& model) {
     return model.flipped ? flipped(result) : result;
 }
 
-Feet find_feet(const PlacedModel& model, const PlacedModel& other, const Progress& progress) {
+Feet find_feet(const PlacedModel& model, const NodeSet& nodes, const PlacedModel& other, const Progress& progress) {
     // Queried in portions, so that a cancel is heard.
     constexpr std::size_t portion = 500;
     Feet result;
     std::vector<Vector3> queries;
     const SimilarityTransform other_original = other.original_model.inverse();
-    for (const AreaSample& sample : model.prepared.features.samples) {
+    for (const AreaSample& sample : nodes.nodes) {
         result.nodes.push_back(model.original_model.apply(sample.curvature.point));
         queries.push_back(other_original.apply(result.nodes.back()));
     }
@@ -81,10 +81,11 @@ Feet find_feet(const PlacedModel& model, const PlacedModel& other, const Progres
     return result;
 }
 
-double normal_agreement(const PlacedModel& model, const PlacedModel& other, const Feet& feet, double limit) {
+double normal_agreement(const PlacedModel& model, const NodeSet& nodes, const PlacedModel& other, const Feet& feet,
+                        double limit) {
     double sum = 0.0;
     for (std::size_t i = 0; i < feet.nodes.size(); ++i) {
-        const AreaSample& sample = model.prepared.features.samples[i];
+        const AreaSample& sample = nodes.nodes[i];
         const ClosestPoint& foot = feet.feet[i];
         if (!(foot.distance <= limit)) continue;
         const std::vector<Curvature> there =
@@ -95,14 +96,15 @@ double normal_agreement(const PlacedModel& model, const PlacedModel& other, cons
     return sum;
 }
 
-DirectedComparison compare_nodes(const PlacedModel& model, const PlacedModel& other, const Feet& feet,
-                                 const NodeTolerances& tolerances) {
+DirectedComparison compare_nodes(const PlacedModel& model, const NodeSet& nodes, const PlacedModel& other,
+                                 const Feet& feet, const NodeTolerances& tolerances) {
     DirectedComparison result;
+    result.of_wireframe = nodes.of_wireframe;
     const double area_scale = model.original_model.scale * model.original_model.scale;
     const double overlap_limit = spread_factor * tolerances.distance;
     double area = 0.0, covered = 0.0, overlap = 0.0;
     for (std::size_t i = 0; i < feet.nodes.size(); ++i) {
-        const AreaSample& sample = model.prepared.features.samples[i];
+        const AreaSample& sample = nodes.nodes[i];
         const ClosestPoint& foot = feet.feet[i];
         const Curvature node = placed(sample.curvature, model);
         NodeComparison comparison{.at = sample.at, .foot = foot.at, .point = feet.nodes[i]};

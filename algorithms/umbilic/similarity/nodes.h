@@ -8,6 +8,7 @@
 #include <umbilic/core/similarity_transform.h>
 #include <umbilic/matching/prepared_model.h>
 #include <umbilic/similarity/assessment.h>
+#include <umbilic/similarity/wireframe_nodes.h>
 
 namespace umbilic {
 
@@ -30,12 +31,13 @@ struct Feet {
     std::vector<ClosestPoint> feet;
 };
 
-/// Closest points of the area samples of `model` on `other`.
-Feet find_feet(const PlacedModel& model, const PlacedModel& other, const Progress& progress);
+/// Closest points of the nodes of `model`, given in its own frame, on `other`.
+Feet find_feet(const PlacedModel& model, const NodeSet& nodes, const PlacedModel& other, const Progress& progress);
 
 /// Area-weighted sum, over nodes within `limit` (mm) of their foot, of the cosine between the normals of node and foot:
 /// negative where one of the models is inside out against the other.
-double normal_agreement(const PlacedModel& model, const PlacedModel& other, const Feet& feet, double limit);
+double normal_agreement(const PlacedModel& model, const NodeSet& nodes, const PlacedModel& other, const Feet& feet,
+                        double limit);
 
 /// Tolerances the comparison of nodes depends on.
 struct NodeTolerances {
@@ -47,7 +49,7 @@ struct NodeTolerances {
 /// The quantities of the thesis's assessment (4.4.4) at every node, with their statistics. Curvatures are left out
 /// where the foot lies on a trimming edge, or node or foot is singular; directions also where kappa_max - kappa_min is
 /// not significant at node or foot.
-DirectedComparison compare_nodes(const PlacedModel& model, const PlacedModel& other, const Feet& feet,
-                                 const NodeTolerances& tolerances);
+DirectedComparison compare_nodes(const PlacedModel& model, const NodeSet& nodes, const PlacedModel& other,
+                                 const Feet& feet, const NodeTolerances& tolerances);
 
 }  // namespace umbilic

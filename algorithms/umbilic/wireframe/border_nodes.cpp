@@ -118,7 +118,8 @@ struct DividedEdge {
     std::vector<std::vector<Vector2>> parameters;
 };
 
-DividedEdge divide(const FaceAdjacency& adjacency, int number, double step, int multiple, int least) {
+DividedEdge divide(const FaceAdjacency& adjacency, int number, double step, int multiple, int least,
+                   const Progress& progress) {
     const Edge& edge = adjacency.edges[number];
     const Borders& borders = adjacency.borders;
     const BorderPiece& first = edge.uses.front().piece;
@@ -135,6 +136,7 @@ DividedEdge divide(const FaceAdjacency& adjacency, int number, double step, int 
     std::vector<double> t(result.parts + 1);
     result.parameters.resize(edge.uses.size());
     for (int i = 0; i <= marks; ++i) {
+        progress.check();
         const double at = i == 0       ? first.range.low
                           : i == marks ? first.range.high
                                        : arc.parameter(result.length * i / marks);
@@ -307,7 +309,7 @@ std::vector<FaceBorder> border_nodes(const FaceAdjacency& adjacency, const Borde
     for (std::size_t e = 0; e < adjacency.edges.size(); ++e) {
         progress.report(static_cast<double>(e) / static_cast<double>(adjacency.edges.size()), "border nodes");
         const int multiple = e < options.multiples.size() ? std::max(1, options.multiples[e]) : 1;
-        divided.push_back(divide(adjacency, static_cast<int>(e), options.step, multiple, least[e]));
+        divided.push_back(divide(adjacency, static_cast<int>(e), options.step, multiple, least[e], progress));
     }
     std::vector<FaceBorder> result;
     for (std::size_t f = 0; f < faces; ++f) result.push_back(face_border(adjacency, f, divided));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <queue>
@@ -17,14 +18,18 @@
 
 #include <umbilic/differential/curvature.h>
 #include <umbilic/wireframe/face_triangulation.h>
-#include <umbilic/wireframe/point_grid.h>
+#include <umbilic/wireframe/point_cells.h>
 
 namespace umbilic {
 
 namespace {
 
+/// Gap between the ends of two border curves that meet in space, relative to the sides of the parameter box.
+constexpr double loose_end = 1e-5;
 /// Nodes of the net nearer to the border than this share of the step are left out.
 constexpr double least_border_distance = 0.447;
+/// Middles of a border's segments are asked for as far as this.
+constexpr double border_reach = least_border_distance + 0.5 * longest_stretch / (between_count + 1);
 /// And those nearer than this to each other.
 constexpr double least_node_distance = 0.337;
 /// A part of a line that is longer than this times its chord is no side of a cell.
@@ -36,6 +41,9 @@ constexpr double least_new_distance = 0.317;
 constexpr double longest_edge = 1.211;
 /// A triangle's circle may be as large as this share of the step.
 constexpr double greatest_radius = 0.983;
+/// Two triangles without a part of a line between them become a quadrilateral if its corners differ from right angles
+/// by less than this.
+constexpr double greatest_corner_bend = 0.8;
 constexpr int most_corrections = 20;
 constexpr double relative_correction = 1e-12;
 /// Points of an edge between its ends.
@@ -56,6 +64,20 @@ double circumradius(const Vector3& a, const Vector3& b, const Vector3& c) {
     const double area = (b - a).cross(c - a).norm();
     if (!(area > 0.0)) return std::numeric_limits<double>::infinity();
     return (b - a).norm() * (c - b).norm() * (a - c).norm() / (2 * area);
+}
+
+/// Greatest difference of a quadrilateral's corner from a right angle, counted in the sense of the first; more than a
+/// right angle if it is not convex.
+double corner_bend(const std::array<Vector3, 4>& corners) {
+    const Vector3 normal = (corners[2] - corners[0]).cross(corners[3] - corners[1]);
+    double result = 0.0;
+    for (int k = 0; k < 4; ++k) {
+        const Vector3 to_next = corners[(k + 1) % 4] - corners[k], to_last = corners[(k + 3) % 4] - corners[k];
+        const Vector3 turn = to_next.cross(to_last);
+        const double angle = std::atan2(turn.dot(normal) < 0.0 ? -turn.norm() : turn.norm(), to_next.dot(to_last));
+        result = std::max(result, std::abs(angle - 0.5 * std::numbers::pi));
+    }
+    return result;
 }
 
 class FaceCompletion {
@@ -118,7 +140,7 @@ private:
     struct Segment {
         Vector3 a, b;
     };
-    PointGrid<Segment> border_segments_;
+    PointCells<Segment> border_segments_;
     bool exhausted_ = false;
 };
 
@@ -149,16 +171,26 @@ bool FaceCompletion::build_border(Completion& result) {
     // Copies of the nodes as corners in the parameter plane.
     FaceTriangulation::Loops loops;
     std::vector<const BorderNode*> copies;
+    // Where the curves of a loop do not meet exactly in the parameter plane the same point follows itself.
+    const auto same = [&](int copy, const GridPoint& at, const BorderNode& node) {
+        const GridPoint gap = loops.corners[copy] - at;
+        const double most = copies[copy]->identity == node.identity ? loose_end * static_cast<double>(grid_side) : 0.0;
+        return std::abs(static_cast<double>(gap.x)) <= most && std::abs(static_cast<double>(gap.y)) <= most;
+    };
     for (const std::vector<BorderNode>& loop : border_.loops) {
         std::vector<int> corners;
         for (const BorderNode& node : loop) {
             const GridPoint at = to_grid(node.parameters);
-            if (!corners.empty() && loops.corners[corners.back()] == at) continue;
+            if (!corners.empty() && same(corners.back(), at, node)) {
+                copies.back() = &node;
+                loops.corners.back() = at;
+                continue;
+            }
             corners.push_back(static_cast<int>(copies.size()));
             copies.push_back(&node);
             loops.corners.push_back(at);
         }
-        if (corners.size() > 1 && loops.corners[corners.front()] == loops.corners[corners.back()]) {
+        if (corners.size() > 1 && same(corners.back(), loops.corners[corners.front()], *copies[corners.front()])) {
             corners.pop_back();
             copies.pop_back();
             loops.corners.pop_back();
@@ -218,7 +250,8 @@ bool FaceCompletion::build_border(Completion& result) {
 
 double FaceCompletion::border_distance(const Vector3& p) const {
     double distance = options_.step;
-    border_segments_.near(p, [&](const Segment& s) { distance = std::min(distance, segment_distance(p, s.a, s.b)); });
+    border_segments_.near(p, border_reach * options_.step,
+                          [&](const Segment& s) { distance = std::min(distance, segment_distance(p, s.a, s.b)); });
     return distance;
 }
 
@@ -232,17 +265,27 @@ int FaceCompletion::add_vertex(const FaceTriangulation::Place& place, const Vect
 
 void FaceCompletion::add_net() {
     net_vertex_.assign(net_.nodes.size(), -1);
+    mesh_.set_metric([this](const GridPoint& p) -> Matrix2 {
+        const Vector2 at = wrapped(from_grid(static_cast<double>(p.x), static_cast<double>(p.y)));
+        const SurfaceDerivatives d = face_.surface.derivatives(at.x(), at.y(), 1);
+        const double u = box_.u.length(), v = box_.v.length();
+        Matrix2 metric;
+        metric(0, 0) = u * u * d.r_u().squaredNorm();
+        metric(0, 1) = metric(1, 0) = u * v * d.r_u().dot(d.r_v());
+        metric(1, 1) = v * v * d.r_v().squaredNorm();
+        return metric;
+    });
     // Near umbilics lines cross in a small space: the crossing that is nearer to the start stays.
     std::vector<int> order(net_.nodes.size());
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(),
                      [&](int a, int b) { return net_.nodes[a].distance < net_.nodes[b].distance; });
-    PointGrid<int> kept(options_.step);
+    PointCells<int> kept(options_.step);
     for (const int i : order) {
         const NetNode& node = net_.nodes[i];
         if (border_distance(node.point) < least_border_distance * options_.step) continue;
         bool crowded = false;
-        kept.near(node.point, [&](int other) {
+        kept.near(node.point, least_node_distance * options_.step, [&](int other) {
             crowded = crowded || (net_.nodes[other].point - node.point).norm() < least_node_distance * options_.step;
         });
         if (crowded) continue;
@@ -337,16 +380,8 @@ bool FaceCompletion::refine() {
         const double radius = circumradius(mesh_.points()[a], mesh_.points()[b], mesh_.points()[c]);
         if (radius > greatest_radius * step) queue.push({radius, triangle, mesh_.version(triangle)});
     };
-    std::vector<unsigned> seen(mesh_.triangle_count());
-    const auto look_at_changed = [&] {
-        seen.resize(mesh_.triangle_count(), 0);
-        for (int t = 0; t < mesh_.triangle_count(); ++t)
-            if (seen[t] != mesh_.version(t) + 1) {
-                seen[t] = mesh_.version(t) + 1;
-                look(t);
-            }
-    };
-    look_at_changed();
+    for (int t = 0; t < mesh_.triangle_count(); ++t) look(t);
+    mesh_.take_changed();
     while (!queue.empty()) {
         progress_.check();
         const Entry entry = queue.top();
@@ -379,7 +414,8 @@ bool FaceCompletion::refine() {
             }
             if (longest >= 0) added = try_insert(edge_middle(longest), 0.3 * step);
         }
-        if (added) look_at_changed();
+        if (!added) continue;
+        for (const int triangle : mesh_.take_changed()) look(triangle);
     }
     return true;
 }
@@ -426,6 +462,15 @@ FaceWireframe FaceCompletion::assemble() const {
     // Pairs of triangles between four parts of lines become quadrilaterals.
     std::vector<bool> taken(mesh_.triangle_count(), false);
     std::set<std::pair<int, int>> diagonals;
+    const auto join = [&](int s) {
+        const FaceTriangulation::Slot& slot = mesh_.slot(s);
+        const int b = mesh_.slot(FaceTriangulation::next(s)).vertex,
+                  c = mesh_.slot(FaceTriangulation::previous(s)).vertex;
+        taken[s / 3] = taken[slot.twin / 3] = true;
+        diagonals.insert(key(b, c));
+        result.cells.push_back({node_of[slot.vertex], node_of[b], node_of[mesh_.slot(slot.twin).vertex], node_of[c]});
+        ++result.quadrilaterals;
+    };
     for (int s = 0; s < mesh_.slot_count(); ++s) {
         const FaceTriangulation::Slot& slot = mesh_.slot(s);
         if (slot.vertex < 0 || slot.twin < s || taken[s / 3] || taken[slot.twin / 3] || slot.twin / 3 == s / 3)
@@ -438,10 +483,29 @@ FaceWireframe FaceCompletion::assemble() const {
         if (sides[0]->family == sides[1]->family || sides[0]->family != sides[2]->family ||
             sides[1]->family != sides[3]->family)
             continue;
-        taken[s / 3] = taken[slot.twin / 3] = true;
-        diagonals.insert(key(b, c));
-        result.cells.push_back({node_of[a], node_of[b], node_of[d], node_of[c]});
-        ++result.quadrilaterals;
+        join(s);
+    }
+    // Between nodes that the lines leave open, the pairs with the squarest corners first.
+    struct Pair {
+        double bend;
+        int slot;
+    };
+    std::vector<Pair> pairs;
+    for (int s = 0; s < mesh_.slot_count(); ++s) {
+        const FaceTriangulation::Slot& slot = mesh_.slot(s);
+        if (slot.vertex < 0 || slot.twin < s || taken[s / 3] || taken[slot.twin / 3] || slot.twin / 3 == s / 3)
+            continue;
+        const int a = slot.vertex, b = mesh_.slot(FaceTriangulation::next(s)).vertex,
+                  c = mesh_.slot(FaceTriangulation::previous(s)).vertex, d = mesh_.slot(slot.twin).vertex;
+        if (net_edge(b, c) || a == d || a == b || a == c || b == c || d == b || d == c) continue;
+        const double bend = corner_bend({points[a], points[b], points[d], points[c]});
+        if (bend < greatest_corner_bend) pairs.push_back({bend, s});
+    }
+    std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.bend < b.bend; });
+    for (const auto& [bend, s] : pairs) {
+        const int twin = mesh_.slot(s).twin;
+        if (taken[s / 3] || taken[twin / 3]) continue;
+        join(s);
     }
     std::set<std::pair<int, int>> edges;
     for (int t = 0; t < mesh_.triangle_count(); ++t) {
@@ -486,7 +550,7 @@ void FaceCompletion::measure(FaceWireframe& wireframe, const std::vector<int>& n
     std::map<std::pair<int, int>, int> edge_of;
     for (std::size_t i = 0; i < wireframe.edges.size(); ++i)
         edge_of[{wireframe.edges[i].from, wireframe.edges[i].to}] = static_cast<int>(i);
-    PointGrid<Vector3> nodes(options_.step);
+    PointCells<Vector3> nodes(options_.step);
     for (const WireNode& node : wireframe.nodes) nodes.add(node.curvature.point, node.curvature.point);
     double area = 0.0, covered = 0.0;
     for (int t = 0; t < mesh_.triangle_count(); ++t) {
@@ -509,11 +573,18 @@ void FaceCompletion::measure(FaceWireframe& wireframe, const std::vector<int>& n
                 distance = std::min(distance, (points[corner.vertex] - p).norm());
             // In thin triangles another node may be nearer.
             if (distance > options_.step)
-                nodes.near(p, [&](const Vector3& node) { distance = std::min(distance, (node - p).norm()); });
+                nodes.near(p, options_.step,
+                           [&](const Vector3& node) { distance = std::min(distance, (node - p).norm()); });
             area += weight;
             if (distance <= options_.step) covered += weight;
             wireframe.farthest = std::max(wireframe.farthest, distance);
         }
+        // The triangle's area among its inner corners.
+        const auto inner = [&](const FaceTriangulation::Slot& corner) { return !vertices_[corner.vertex].on_border; };
+        const auto inner_corners = std::count_if(s.begin(), s.end(), inner);
+        for (const FaceTriangulation::Slot& corner : s)
+            if (inner(corner))
+                wireframe.nodes[node_of[corner.vertex]].area += weight * cell_samples.size() / inner_corners;
         for (int k = 0; k < 3; ++k) {
             const FaceTriangulation::Slot &from = s[(k + 1) % 3], &to = s[(k + 2) % 3];
             if (from.vertex > to.vertex) continue;

@@ -18,11 +18,15 @@ double angle(const Vector3& a, const Vector3& b) {
     return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// Whether d lies inside of the circle through a, b, c in the plane with y scaled.
-bool in_circle(const GridPoint& a, const GridPoint& b, const GridPoint& c, const GridPoint& d, double aspect) {
+/// Whether d lies inside of the circle through a, b, c in a metric.
+bool in_circle(const GridPoint& a, const GridPoint& b, const GridPoint& c, const GridPoint& d, const Matrix2& metric) {
+    const double determinant_of_metric = metric(0, 0) * metric(1, 1) - metric(0, 1) * metric(0, 1);
+    if (!(metric(0, 0) > 0.0 && determinant_of_metric > 0.0)) return false;
+    const double xx = std::sqrt(metric(0, 0)), xy = metric(0, 1) / xx, yy = std::sqrt(determinant_of_metric) / xx;
     const auto lifted = [&](const GridPoint& p) -> Vector3 {
-        const double x = static_cast<double>(p.x - d.x) * aspect, y = static_cast<double>(p.y - d.y);
-        return {x, y, x * x + y * y};
+        const double x = static_cast<double>(p.x - d.x), y = static_cast<double>(p.y - d.y);
+        const double along = xx * x + xy * y, across = yy * y;
+        return {along, across, along * along + across * across};
     };
     const Vector3 p = lifted(a), q = lifted(b), r = lifted(c);
     const double determinant = p.dot(q.cross(r));
@@ -53,6 +57,15 @@ void FaceTriangulation::set_corner(int slot, int vertex, const GridPoint& corner
     slots_[slot].corner = corner;
     slot_of_[vertex] = slot;
     ++versions_[slot / 3];
+    if (changed_.empty() || changed_.back() != slot / 3) changed_.push_back(slot / 3);
+}
+
+std::vector<int> FaceTriangulation::take_changed() {
+    std::vector<int> result;
+    result.swap(changed_);
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
 }
 
 void FaceTriangulation::link(int a, int b) {
@@ -125,19 +138,25 @@ bool FaceTriangulation::should_flip(int slot) const {
     if (twin < 0 || slots_[slot].fixed || twin / 3 == slot / 3 || !convex(slot)) return false;
     const int a = slots_[slot].vertex, b = slots_[next(slot)].vertex, c = slots_[previous(slot)].vertex,
               d = slots_[twin].vertex;
-    if (!in_space_)
-        return in_circle(slots_[slot].corner, slots_[next(slot)].corner, slots_[previous(slot)].corner, opposite(slot),
-                         aspect_);
+    if (!in_space_) {
+        const GridPoint p = slots_[slot].corner, q = slots_[next(slot)].corner, r = slots_[previous(slot)].corner,
+                        far = opposite(slot);
+        Matrix2 metric = Vector2(aspect_ * aspect_, 1.0).asDiagonal();
+        if (metric_) metric = metric_({(p.x + q.x + r.x + far.x) / 4, (p.y + q.y + r.y + far.y) / 4});
+        return in_circle(p, q, r, far, metric);
+    }
     if (a == b || b == c || c == a || d == b || d == c || a == d) return false;
     return std::min(least_angle(a, b, d), least_angle(a, d, c)) >
            std::min(least_angle(a, b, c), least_angle(d, c, b)) + least_gain;
 }
 
 void FaceTriangulation::legalise(std::vector<int>& stack) {
-    while (!stack.empty()) {
+    // Where the metric changes from place to place flips could go round.
+    for (long flips = 0, most = 16L * slot_count() + 64; !stack.empty() && flips < most;) {
         const int slot = stack.back();
         stack.pop_back();
         if (slots_[slot].vertex < 0 || !should_flip(slot)) continue;
+        ++flips;
         const int twin = slots_[slot].twin;
         flip(slot);
         for (const int s : {slot, previous(slot), twin, next(twin)}) stack.push_back(s);
@@ -353,6 +372,7 @@ std::optional<FaceTriangulation::Conflict> FaceTriangulation::build(const Loops&
     points_.clear();
     in_space_ = false;
     aspect_ = aspect;
+    metric_ = nullptr;
     const int count = static_cast<int>(loops.corners.size());
     // Outer triangle.
     slot_of_.assign(3, -1);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -55,6 +56,10 @@ public:
     /// Joins the border edges (a0, a1) and (b1, b0) where the surface is closed; to be called for all seam edges, then
     /// rename() once.
     void glue(int a0, int a1, int b0, int b1);
+    /// Squared lengths in space near a point of the plane: x'x times (0, 0), x'y times (0, 1), y'y times (1, 1). From
+    /// now on, until improve(), flips follow circles in it rather than in one metric for all of the plane.
+    void set_metric(std::function<Matrix2(const GridPoint&)> metric) { metric_ = std::move(metric); }
+
     /// Replaces vertex numbers.
     void rename(const std::vector<int>& names);
 
@@ -87,6 +92,8 @@ public:
     int vertex_count() const { return static_cast<int>(slot_of_.size()); }
     /// Changes whenever the triangle does.
     unsigned version(int triangle) const { return versions_[triangle]; }
+    /// Triangles that changed or were added since the last call, each once, in increasing order.
+    std::vector<int> take_changed();
 
     static int next(int slot) { return slot - slot % 3 + (slot % 3 + 1) % 3; }
     static int previous(int slot) { return slot - slot % 3 + (slot % 3 + 2) % 3; }
@@ -109,7 +116,9 @@ private:
     std::vector<int> slot_of_;  ///< some slot of each vertex, or -1
     std::vector<Vector3> points_;
     std::vector<int> free_;
+    std::vector<int> changed_;
     double aspect_ = 1.0;
+    std::function<Matrix2(const GridPoint&)> metric_;
     bool in_space_ = false;
     mutable int last_ = 0;
 };

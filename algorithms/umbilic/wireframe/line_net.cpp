@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <map>
 #include <optional>
 #include <tuple>
@@ -10,7 +12,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include <umbilic/wireframe/point_grid.h>
+#include <umbilic/wireframe/point_cells.h>
 
 namespace umbilic {
 
@@ -26,6 +28,12 @@ constexpr double longest_end = 1.313;
 constexpr double longest_gap = 1.672;
 /// Lines are sampled at this part of the step.
 constexpr double sample_share = 0.25;
+/// A sample stands for this much of its line to both sides, relative to the step: a little more than half of it.
+constexpr double sample_reach = 0.51 * sample_share;
+/// Cells of samples, relative to the step: about two along each axis hold what is asked for.
+constexpr double cell_side = 1.5;
+/// The crossing segments of two lines: middle of the one and begin of the other are nearer than this.
+constexpr double segment_reach = 3 * sample_share;
 /// Lines are parallel if the cosine between them is above this, on one side of the surface if that of the normals is.
 constexpr double parallel = 0.707;
 constexpr double same_side = 0.3;
@@ -33,6 +41,7 @@ constexpr double same_side = 0.3;
 constexpr double relative_tolerance = 1e-7;
 /// A line ends after this many steps of the net at the latest.
 constexpr double longest_line = 400.0;
+constexpr std::size_t most_line_steps = 40'000;
 /// Newton's method on (s1, s2).
 constexpr int most_corrections = 12;
 constexpr double relative_correction = 1e-11;
@@ -50,6 +59,16 @@ struct Sample {
     Vector3 point, tangent, normal;
 };
 
+/// A place where a line shall start.
+struct Seed {
+    double distance = 0.0;  ///< from the start of the net, along lines, mm
+    Vector2 parameters = Vector2::Zero();
+    CurvatureFamily family = CurvatureFamily::maximum;
+    std::optional<Vector3> one_way;
+    int line = -1;  ///< that it shall cross, at the arc length s
+    double s = 0.0;
+};
+
 struct Line {
     CurvatureFamily family = CurvatureFamily::maximum;
     TracedLine ahead, behind;
@@ -60,6 +79,8 @@ struct Line {
     std::map<double, int> crossings;  ///< node by arc length
     std::vector<double> refused;      ///< arc lengths at which a line was tried
     bool opened = false;              ///< was closed and has been cut
+    std::vector<Seed> seeds;          ///< where lines that cross it are missing
+    bool changed = true;              ///< since `seeds` were found
 
     /// Parameters at the signed arc length s; a little beyond its ends the line goes straight on.
     Vector2 at(double s) const {
@@ -90,17 +111,7 @@ private:
 struct SampleEntry {
     int line, sample;
 };
-using SampleGrid = PointGrid<SampleEntry>;
-
-/// A place where a line shall start.
-struct Seed {
-    double distance = 0.0;  ///< from the start of the net, along lines, mm
-    Vector2 parameters = Vector2::Zero();
-    CurvatureFamily family = CurvatureFamily::maximum;
-    std::optional<Vector3> one_way;
-    int line = -1;  ///< that it shall cross, at the arc length s
-    double s = 0.0;
-};
+using SampleGrid = PointCells<SampleEntry>;
 
 class NetBuilder {
 public:
@@ -109,7 +120,7 @@ public:
           options_(options),
           progress_(progress),
           step_(options.step),
-          grids_{SampleGrid(step_), SampleGrid(step_)} {}
+          grids_{SampleGrid(cell_side * step_), SampleGrid(cell_side * step_)} {}
 
     LineNet build(const NetStart& start);
 
@@ -122,7 +133,8 @@ private:
         return {.length = longest_line * step_,
                 .tolerance = relative_tolerance * step_,
                 .longest_step = step_,
-                .closing_distance = 1e-3 * step_};
+                .closing_distance = 1e-3 * step_,
+                .most_steps = most_line_steps};
     }
     bool crowded(const Sample& sample, CurvatureFamily family, double distance) const;
     bool near(const Sample& sample, const Line& line, int number, double distance) const;
@@ -133,7 +145,8 @@ private:
     void find_crossings(int number);
     std::optional<std::pair<double, double>> crossing(const Line& a, double sa, const Line& b, double sb) const;
     void add_crossing(int a, double sa, int b, double sb);
-    void seeds_of(int number, std::vector<Seed>& seeds) const;
+    std::vector<Seed> seeds_of(int number) const;
+    void refuse(const Seed& seed);
     Vector2 difference(Vector2 d) const;
 
     const LineTracer& tracer_;
@@ -161,7 +174,7 @@ bool NetBuilder::near(const Sample& sample, const Line& line, int number, double
     if (sample.normal.dot(other.normal) < same_side || std::abs(sample.tangent.dot(other.tangent)) < parallel)
         return false;
     const Vector3 d = sample.point - other.point;
-    const double along = d.dot(other.tangent), reach = 0.51 * sample_share * step_;
+    const double along = d.dot(other.tangent), reach = sample_reach * step_;
     const bool inner = number > 0 && number + 1 < static_cast<int>(line.samples.size());
     if (inner && std::abs(along) > reach) return false;
     return (d - std::clamp(along, -reach, reach) * other.tangent).norm() < distance;
@@ -169,7 +182,7 @@ bool NetBuilder::near(const Sample& sample, const Line& line, int number, double
 
 bool NetBuilder::crowded(const Sample& sample, CurvatureFamily family, double distance) const {
     bool found = false;
-    grids_[index(family)].near(sample.point, [&](const SampleEntry& entry) {
+    grids_[index(family)].near(sample.point, distance + sample_reach * step_, [&](const SampleEntry& entry) {
         found = found || near(sample, lines_[entry.line], entry.sample, distance);
     });
     return found;
@@ -199,9 +212,8 @@ std::optional<Line> NetBuilder::trace(const Seed& seed) const {
     TraceOptions options = trace_options();
     // The integration need not go on where the line will be cut anyway.
     int near = 0;
-    options.stop = [&](const Vector2& p) {
-        near =
-            crowded(as_sample(tracer_.value(p, seed.family)), seed.family, 0.8 * least_distance * step_) ? near + 1 : 0;
+    options.stop = [&](const FieldValue& v) {
+        near = crowded(as_sample(v), seed.family, 0.8 * least_distance * step_) ? near + 1 : 0;
         return near > 1;
     };
     Line line;
@@ -250,7 +262,7 @@ void NetBuilder::grow(std::vector<Line>& lines) const {
         origin.push_back(static_cast<int>(at - line.samples.begin()));
         ends.push_back({0, static_cast<int>(line.samples.size()) - 1});
     }
-    std::array<SampleGrid, 2> grown = {SampleGrid(step_), SampleGrid(step_)};
+    std::array<SampleGrid, 2> grown = {SampleGrid(cell_side * step_), SampleGrid(cell_side * step_)};
     std::vector<char> cut(lines.size(), 0);
     for (std::size_t begin = 0; begin < events.size();) {
         std::size_t end = begin;
@@ -263,16 +275,17 @@ void NetBuilder::grow(std::vector<Line>& lines) const {
             Ends& own = ends[event.line];
             if (event.sample < own.low || event.sample > own.high) continue;
             bool stop = event.sample != origin[event.line] && crowded(sample, line.family, distance);
-            grown[index(line.family)].near(sample.point, [&](const SampleEntry& entry) {
-                if (stop) return;
-                const Line& other = lines[entry.line];
-                if (entry.line == event.line) {
-                    double between = std::abs(other.samples[entry.sample].s - sample.s);
-                    if (line.closed) between = std::min(between, line.high - between);
-                    if (between < 2 * step_) return;
-                }
-                stop = near(sample, other, entry.sample, distance);
-            });
+            grown[index(line.family)].near(sample.point, distance + sample_reach * step_,
+                                           [&](const SampleEntry& entry) {
+                                               if (stop) return;
+                                               const Line& other = lines[entry.line];
+                                               if (entry.line == event.line) {
+                                                   double between = std::abs(other.samples[entry.sample].s - sample.s);
+                                                   if (line.closed) between = std::min(between, line.high - between);
+                                                   if (between < 2 * step_) return;
+                                               }
+                                               stop = near(sample, other, entry.sample, distance);
+                                           });
             reached.push_back(event);
             if (!stop) continue;
             const bool above = event.sample > origin[event.line] && !(line.closed && sample.s > 0.5 * line.high);
@@ -312,6 +325,13 @@ void NetBuilder::grow(std::vector<Line>& lines) const {
     }
 }
 
+/// No line shall start there again.
+void NetBuilder::refuse(const Seed& seed) {
+    if (seed.line < 0) return;
+    lines_[seed.line].refused.push_back(seed.s);
+    lines_[seed.line].changed = true;
+}
+
 /// Adds the lines of seeds that are equally far from the start. False if none of them can start.
 bool NetBuilder::add_lines(const std::vector<Seed>& seeds) {
     std::vector<Line> lines;
@@ -320,14 +340,14 @@ bool NetBuilder::add_lines(const std::vector<Seed>& seeds) {
         if (std::optional<Line> line = trace(seed)) {
             lines.push_back(std::move(*line));
             origins.push_back(&seed);
-        } else if (seed.line >= 0) {
-            lines_[seed.line].refused.push_back(seed.s);
+        } else {
+            refuse(seed);
         }
     grow(lines);
     bool added = false;
     for (std::size_t i = 0; i < lines.size(); ++i) {
         if (!(lines[i].high - lines[i].low > sample_share * step_)) {
-            if (origins[i]->line >= 0) lines_[origins[i]->line].refused.push_back(origins[i]->s);
+            refuse(*origins[i]);
             continue;
         }
         const int number = static_cast<int>(lines_.size());
@@ -338,7 +358,7 @@ bool NetBuilder::add_lines(const std::vector<Seed>& seeds) {
             grids_[index(line.family)].add(line.samples[k].point, {number, static_cast<int>(k)});
         added = true;
         // A line that does not cross the one it should is of no use there again.
-        if (const Seed& seed = *origins[i]; seed.line >= 0) lines_[seed.line].refused.push_back(seed.s);
+        refuse(*origins[i]);
         // A half-line from an umbilic begins a little beside it.
         if (origins[i]->one_way)
             lines_.back().crossings.emplace(-(line.samples.front().point - net_.nodes.front().point).norm(), 0);
@@ -385,6 +405,7 @@ void NetBuilder::add_crossing(int a, double sa, int b, double sb) {
         {p, tracer_.face().surface.value(p.x(), p.y()), std::min(distance(lines_[a], sa), distance(lines_[b], sb))});
     lines_[a].crossings.emplace(sa, node);
     lines_[b].crossings.emplace(sb, node);
+    lines_[a].changed = lines_[b].changed = true;
 }
 
 void NetBuilder::find_crossings(int number) {
@@ -395,7 +416,7 @@ void NetBuilder::find_crossings(int number) {
     for (std::size_t i = 0; i + 1 < line.samples.size(); ++i) {
         const Sample &p = line.samples[i], &q = line.samples[i + 1];
         const Vector3 d = q.point - p.point;
-        grid.near(0.5 * (p.point + q.point), [&](const SampleEntry& entry) {
+        grid.near(0.5 * (p.point + q.point), segment_reach * step_, [&](const SampleEntry& entry) {
             const Line& across = lines_[entry.line];
             if (entry.sample + 1 >= static_cast<int>(across.samples.size())) return;
             const Sample &r = across.samples[entry.sample], &t = across.samples[entry.sample + 1];
@@ -418,8 +439,9 @@ void NetBuilder::find_crossings(int number) {
 }
 
 /// Places on a line where crossing lines are missing.
-void NetBuilder::seeds_of(int number, std::vector<Seed>& seeds) const {
+std::vector<Seed> NetBuilder::seeds_of(int number) const {
     const Line& line = lines_[number];
+    std::vector<Seed> seeds;
     const auto add = [&](double s) {
         if (line.closed) s -= line.high * std::floor(s / line.high);
         if (s < line.low || s > line.high) return;
@@ -429,7 +451,7 @@ void NetBuilder::seeds_of(int number, std::vector<Seed>& seeds) const {
         seeds.push_back(
             {line.distance + way, tracer_.wrapped(line.at(s)), other(line.family), std::nullopt, number, s});
     };
-    if (line.crossings.empty()) return;
+    if (line.crossings.empty()) return seeds;
     const double first = line.crossings.begin()->first, last = line.crossings.rbegin()->first;
     const auto fill = [&](double low, double high) {
         const double gap = high - low;
@@ -449,6 +471,7 @@ void NetBuilder::seeds_of(int number, std::vector<Seed>& seeds) const {
     }
     for (auto at = line.crossings.begin(); std::next(at) != line.crossings.end(); ++at)
         fill(at->first, std::next(at)->first);
+    return seeds;
 }
 
 LineNet NetBuilder::build(const NetStart& start) {
@@ -466,12 +489,17 @@ LineNet NetBuilder::build(const NetStart& start) {
     while (lines_.size() < options_.most_lines) {
         progress_.check();
         seeds.clear();
-        for (int i = 0; i < static_cast<int>(lines_.size()); ++i) seeds_of(i, seeds);
-        if (seeds.empty()) break;
         // Those that are nearest to the start, all at once.
-        double nearest = seeds.front().distance;
-        for (const Seed& seed : seeds) nearest = std::min(nearest, seed.distance);
-        std::erase_if(seeds, [&](const Seed& seed) { return seed.distance > nearest + tie * step_; });
+        double nearest = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < lines_.size(); ++i) {
+            if (lines_[i].changed) lines_[i].seeds = seeds_of(static_cast<int>(i));
+            lines_[i].changed = false;
+            for (const Seed& seed : lines_[i].seeds) nearest = std::min(nearest, seed.distance);
+        }
+        for (const Line& line : lines_)
+            std::copy_if(line.seeds.begin(), line.seeds.end(), std::back_inserter(seeds),
+                         [&](const Seed& seed) { return seed.distance <= nearest + tie * step_; });
+        if (seeds.empty()) break;
         add_lines(seeds);
     }
     net_.lines = static_cast<int>(lines_.size());

@@ -2,8 +2,11 @@
 #include <umbilic/wireframe/wireframe.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
+#include <map>
+#include <sstream>
 #include <string>
 
 #include <tbb/parallel_for.h>
@@ -21,6 +24,24 @@ namespace {
 
 /// Rounds in which edges get twice as many nodes because their chords cross.
 constexpr int border_rounds = 6;
+/// Both sides of a seam are a whole side of the domain apart, less this share.
+constexpr double seam_slack = 1e-3;
+
+/// Nodes that a step may ask for: some tens of microseconds and a kilobyte each.
+constexpr double most_wanted = 1e6;
+
+/// Throws if the step is so small that the work would not end.
+void check_step(const Model& model, const WireframeOptions& options, double step) {
+    double area = 0.0;
+    for (const Face& face : model.faces)
+        if (options.face == 0 || face.number == options.face) area += std::max(face.area, 0.0);
+    const double least = std::sqrt(area / most_wanted);
+    if (step >= least) return;
+    std::ostringstream text;
+    text << "wireframe: a step of " << step << " mm needs more than a million nodes; choose at least " << least
+         << " mm";
+    throw InvalidInput(text.str());
+}
 
 void check(const Model& model, const WireframeOptions& options) {
     const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
@@ -29,6 +50,8 @@ void check(const Model& model, const WireframeOptions& options) {
         throw InvalidInput("wireframe: the relative step must be finite and positive");
     if (!positive(options.most_nodes)) throw InvalidInput("wireframe: the budget of nodes must be finite and positive");
     if (options.face != 0) model.face(options.face);
+    if (!options.umbilics_found.empty() && options.umbilics_found.size() != model.faces.size())
+        throw InvalidInput("wireframe: the umbilics found before are not those of the model's faces");
     if (model.faces.empty()) throw InvalidInput("wireframe: the model has no faces");
 }
 
@@ -37,11 +60,27 @@ int budget(const Face& face, const FaceBorder& border, const WireframeOptions& o
     return static_cast<int>(std::min(inner, 1e7)) + 4 * border.identities + 64;
 }
 
-Completion face_wireframe(const Face& face, const FaceBorder& border, const WireframeOptions& options, double step,
-                          const Progress& progress) {
+/// The parameters in which a face is joined to itself along its own seam edge: the surface may be closed only within
+/// the tolerance of the model.
+std::array<bool, 2> joined_to_itself(const Face& face, const FaceBorder& border) {
+    const ParameterBox domain = face.surface.domain();
+    std::map<int, Vector2> first;
+    std::array<bool, 2> result = {false, false};
+    for (const std::vector<BorderNode>& loop : border.loops)
+        for (const BorderNode& node : loop) {
+            if (node.kind != BorderKind::seam) continue;
+            const Vector2 way = node.parameters - first.emplace(node.identity, node.parameters).first->second;
+            result[0] = result[0] || std::abs(way.x()) > (1 - seam_slack) * domain.u.length();
+            result[1] = result[1] || std::abs(way.y()) > (1 - seam_slack) * domain.v.length();
+        }
+    return result;
+}
+
+Completion mesh(const Face& face, const FaceBorder& border, const FaceUmbilics* found, const WireframeOptions& options,
+                double step, const Progress& progress) {
     FaceUmbilics umbilics;
     const bool small = face.area < 0.25 * step * step;
-    if (options.umbilics && !small) umbilics = find_umbilics(face, {.certificate = false}, progress);
+    if (options.umbilics && !small) umbilics = found ? *found : find_umbilics(face, {.certificate = false}, progress);
     LineNet net;
     LineField field;
     // A face smaller than a cell has no room for lines.
@@ -56,6 +95,17 @@ Completion face_wireframe(const Face& face, const FaceBorder& border, const Wire
                     progress);
 }
 
+Completion face_wireframe(const Face& face, const FaceBorder& border, const FaceUmbilics* found,
+                          const WireframeOptions& options, double step, const Progress& progress) {
+    const auto [u, v] = joined_to_itself(face, border);
+    if ((!u || face.u_closed || face.u_periodic) && (!v || face.v_closed || face.v_periodic))
+        return mesh(face, border, found, options, step, progress);
+    Face closed = face;
+    closed.u_closed = closed.u_closed || u;
+    closed.v_closed = closed.v_closed || v;
+    return mesh(closed, border, found, options, step, progress);
+}
+
 }  // namespace
 
 Wireframe wireframe(const Model& model, const WireframeOptions& options, const Progress& progress) {
@@ -63,6 +113,7 @@ Wireframe wireframe(const Model& model, const WireframeOptions& options, const P
     Wireframe result;
     result.step = options.step.value_or(options.relative_step * model.size());
     if (!(result.step > 0.0)) throw InvalidInput("wireframe: the model has no area; give a step in mm");
+    check_step(model, options, result.step);
 
     const FaceAdjacency adjacency = face_adjacency(model, {}, progress.part(0.0, 0.05));
     std::vector<std::size_t> wanted;
@@ -77,8 +128,9 @@ Wireframe wireframe(const Model& model, const WireframeOptions& options, const P
         const Progress faces = progress.part(0.1, 1.0);
         tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t k) {
             const std::size_t i = open[k];
+            const FaceUmbilics* const found = options.umbilics_found.empty() ? nullptr : &options.umbilics_found[i];
             try {
-                done[i] = face_wireframe(model.faces[i], borders[i], options, result.step, faces);
+                done[i] = face_wireframe(model.faces[i], borders[i], found, options, result.step, faces);
             } catch (const NumericFailure& failure) {
                 done[i] = {};
                 done[i].wireframe.face = model.faces[i].number;

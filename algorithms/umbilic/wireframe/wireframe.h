@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,8 @@ struct WireNode {
     /// Principal frame; the normal points to the face's outward side.
     Curvature curvature;
     bool on_border = false;
+    /// mm^2, for inner nodes: the face's area as its cells measure it, shared among their inner corners. 0 on borders.
+    double area = 0.0;
 };
 
 struct WireEdge {
@@ -40,7 +43,10 @@ struct FaceWireframe {
     int face = 0;
     std::vector<WireNode> nodes;
     std::vector<WireEdge> edges;
-    std::vector<std::vector<int>> cells;  ///< nodes of each triangle or quadrilateral, in order
+    /// Nodes of each triangle or quadrilateral, in order. Between four parts of lines of alternating families there are
+    /// quadrilaterals; so there are elsewhere where no corner of two neighbouring triangles is too far from a right
+    /// angle.
+    std::vector<std::vector<int>> cells;
     int quadrilaterals = 0;
     /// Share of the face's area within `step` of a node of the same face, seen at samples in every cell.
     double coverage = 0.0;
@@ -58,6 +64,8 @@ struct WireframeOptions {
     bool umbilics = true;
     /// Nodes a face may have, as a multiple of its area / step^2, plus as many for its border.
     double most_nodes = 64.0;
+    /// Umbilics as they were found before, one entry a face in the model's order; looked for if there are none.
+    std::span<const FaceUmbilics> umbilics_found = {};
 };
 
 struct Wireframe {
@@ -72,7 +80,8 @@ struct Wireframe {
 /// and in umbilic regions, is filled with points of the surface that are equally far from three nodes, until none is
 /// farther from a node than the step; these are joined by geodesics. A face that cannot be meshed says why.
 ///
-/// Throws InvalidInput if a length is not finite and positive, or there is no such face; Cancelled.
+/// Throws InvalidInput if a length is not finite and positive, if the step asks for more than a million nodes, or there
+/// is no such face; Cancelled.
 Wireframe wireframe(const Model& model, const WireframeOptions& options = {}, const Progress& progress = {});
 
 /// Lower-case words of the JSON results.

@@ -14,20 +14,21 @@ namespace umbilic {
 
 /// Entries at points in space, by cubic cells.
 template <class Entry>
-class PointGrid {
+class PointCells {
 public:
-    explicit PointGrid(double cell) : cell_(cell) {}
+    explicit PointCells(double cell) : cell_(cell) {}
 
     void add(const Vector3& point, Entry entry) { cells_[key(index(point))].push_back(std::move(entry)); }
 
-    /// Visits all entries within one cell side of a point, and others near it.
+    /// Visits all entries within `radius` of a point, and others near it.
     template <class Visit>
-    void near(const Vector3& point, const Visit& visit) const {
-        const Index center = index(point);
-        for (std::int64_t dx = -1; dx <= 1; ++dx)
-            for (std::int64_t dy = -1; dy <= 1; ++dy)
-                for (std::int64_t dz = -1; dz <= 1; ++dz) {
-                    const auto found = cells_.find(key({center[0] + dx, center[1] + dy, center[2] + dz}));
+    void near(const Vector3& point, double radius, const Visit& visit) const {
+        const Vector3 reach = Vector3::Constant(radius);
+        const Index low = index(point - reach), high = index(point + reach);
+        for (std::int64_t x = low[0]; x <= high[0]; ++x)
+            for (std::int64_t y = low[1]; y <= high[1]; ++y)
+                for (std::int64_t z = low[2]; z <= high[2]; ++z) {
+                    const auto found = cells_.find(key({x, y, z}));
                     if (found == cells_.end()) continue;
                     for (const Entry& entry : found->second) visit(entry);
                 }
