@@ -96,6 +96,12 @@ void add_match_options(CLI::App& subcommand, MatchWords& words) {
                     "CSV file with corresponding points: x, y, z on the original, x, y, z on the suspect")
         ->type_name("FILE")
         ->group(group);
+    subcommand
+        .add_option("--match_seconds", words.options.match.seconds,
+                    "Time after which the best pose so far is judged (results then depend on the machine)")
+        ->check(CLI::PositiveNumber)
+        ->type_name("SECONDS")
+        ->group(group);
     const char* const tolerances = "Tolerances";
     const auto add = [&](const char* names, auto& value, const char* meaning, const CLI::Validator& check) {
         subcommand.add_option(names, value, meaning)->check(check)->group(tolerances);

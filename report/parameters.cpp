@@ -91,6 +91,9 @@ std::vector<Parameter> match_parameters(const FeatureOptions& features, const Ma
         parameters.push_back(
             {"pairs", options.pairs.size(), "1", ToleranceOrigin::user, "number of known corresponding points"});
     }
+    if (options.seconds)
+        parameters.push_back({"match_seconds", *options.seconds, "s", ToleranceOrigin::user,
+                              "no further pose is tried once the search takes longer"});
     parameters.push_back({"match_tolerance", number_json(alignment.tolerance), "mm",
                           options.tolerance ? ToleranceOrigin::user : ToleranceOrigin::derived,
                           "a sample lies on the other model if its distance <= match_tolerance"});

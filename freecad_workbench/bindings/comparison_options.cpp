@@ -132,6 +132,8 @@ CompareOptions comparison_options(const py::dict& keywords) {
             for (const auto& [a, b] : value_of<Pairs>(name, value, "pairs of points (original, suspect), in mm")) {
                 options.match.pairs.emplace_back(vector(a), vector(b));
             }
+        } else if (name == "match_seconds") {
+            options.match.seconds = positive(name, value);
         } else if (name == "algorithm") {
             options.algorithm = value_of<int>(name, value, "1 or 2");
             if (options.algorithm != 1 && options.algorithm != 2) throw InvalidInput("algorithm: expected 1 or 2");

@@ -258,6 +258,7 @@ def compare(
     initial           dict with scale, rotation, translation, mirrored: a pose to start from
     pairs             known corresponding points [(on original, on suspect), ...], mm
     nodes             "wireframe" (default) or "area": where the models are compared
+    match_seconds     time after which the best pose so far is judged; results then depend on the machine
     algorithm         1 or 2 (default): the decision algorithm that gives the verdict
     distance          tolerance of the weak test, mm of the original
     kappa             tolerance of curvatures, 1/mm of the original

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <umbilic/matching/match.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -235,6 +237,23 @@ TEST(Match, EveryCopyInsideTheOriginalIsListed) {
     EXPECT_LT(errors[0], 1e-9);
     EXPECT_LT(errors[1], 1e-9);
     EXPECT_EQ(alignment.copies.size(), 2u);
+}
+
+TEST(Match, ATimeLimitLeavesTheBestPoseSoFar) {
+    const NurbsSurface surface = rough_bicubic(10, 3);
+    const Model original = model_of({surface});
+    const Model suspect = model_of({transformed(surface, random_similarity(4, 1.0, false))});
+    MatchOptions options;
+    options.seconds = 1e-9;
+    const Alignment none = match_models(original, suspect, options);
+    EXPECT_EQ(none.status, AlignmentStatus::not_found);
+    EXPECT_NE(none.why.find("in the time allowed"), std::string::npos) << none.why;
+    options.seconds = 1e9;
+    EXPECT_EQ(match_models(original, suspect, options).status, AlignmentStatus::found);
+    for (const double seconds : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+        options.seconds = seconds;
+        EXPECT_THROW(match_models(original, suspect, options), InvalidInput);
+    }
 }
 
 TEST(Match, CopiesInAnAssemblyCountOncePerPlace) {

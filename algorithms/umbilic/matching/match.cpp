@@ -96,6 +96,8 @@ void check_options(const MatchOptions& options) {
         throw InvalidInput("match: the range of the scale must be LOW:HIGH with 0 < LOW <= HIGH");
     if (!(options.umbilic_invariant_tolerance > 0.0))
         throw InvalidInput("match: the tolerance of umbilic invariants must be positive");
+    if (options.seconds && !(*options.seconds > 0.0))
+        throw InvalidInput("match: the time limit must be a positive number of seconds");
     if (options.initial && !(options.initial->scale > 0.0 && options.initial->translation.allFinite() &&
                              options.initial->rotation.allFinite()))
         throw InvalidInput("match: the initial pose must be finite with a positive scale");
@@ -118,7 +120,7 @@ Alignment match(const PreparedModel& original, const PreparedModel& suspect, con
     bool conclusive = false;
     const auto wanted = [&](MethodChoice method) {
         return (options.method == MethodChoice::automatic || options.method == method) && !conclusive &&
-               !settled(search);
+               !search.out_of_time() && !settled(search);
     };
     if (wanted(MethodChoice::analytic)) {
         const Proposals proposals =
@@ -142,7 +144,7 @@ Alignment match(const PreparedModel& original, const PreparedModel& suspect, con
         for (const auto& [third_order, swapped] : passes) {
             const Progress part = progress.part(fraction, fraction + 0.1);
             fraction += 0.1;
-            if (!settled(search))
+            if (!search.out_of_time() && !settled(search))
                 consider(
                     poses_by_principal_frame(original, suspect, options, third_order, swapped, part.part(0.0, 0.5)),
                     refined_poses, curvature_error, part.part(0.5, 1.0));
@@ -150,12 +152,13 @@ Alignment match(const PreparedModel& original, const PreparedModel& suspect, con
     }
     if (options.method == MethodChoice::kh) {
         for (const bool swapped : {false, true}) {
-            if (settled(search)) break;
+            if (search.out_of_time() || settled(search)) break;
             const Progress part = swapped ? progress.part(0.75, 0.9) : progress.part(0.6, 0.75);
             consider(kh_poses(original, suspect, options, swapped, part.part(0.0, 0.8)), refined_poses, kh_error,
                      part.part(0.8, 1.0));
         }
     }
+    if (search.out_of_time()) tried += tried.empty() ? "nothing in the time allowed" : "; the time allowed was used up";
     progress.report(0.9, "comparing poses");
     Alignment alignment = decide_alignment(search, tried, progress.part(0.9, 1.0));
     alignment.copies = copies(alignment, original, suspect);

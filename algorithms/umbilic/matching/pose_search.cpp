@@ -35,6 +35,8 @@ constexpr double unpromising = 0.25;
 /// A refined pose whose residuals are below this part of the length, the rounding of files, gains nothing from more
 /// points.
 constexpr double rounding = 1e-10;
+/// Longer time limits (a year, s) are none.
+constexpr double longest_seconds = 3e7;
 /// A refined pose on which fewer of the points than this came to lie is dropped.
 constexpr double hopeless_share = 0.05;
 /// Models whose lengths differ by more than this factor after scaling are not compared: samples would be too sparse.
@@ -69,7 +71,16 @@ PoseSearch::PoseSearch(const PreparedModel& original, const PreparedModel& suspe
       options_(options),
       distance_(suspect.features),
       original_length_(shape_size(original.features).length),
-      suspect_length_(shape_size(suspect.features).length) {}
+      suspect_length_(shape_size(suspect.features).length) {
+    if (options.seconds)
+        deadline_ = std::chrono::steady_clock::now() +
+                    std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                        std::chrono::duration<double>(std::min(*options.seconds, longest_seconds)));
+}
+
+bool PoseSearch::out_of_time() const {
+    return deadline_ && std::chrono::steady_clock::now() > *deadline_;
+}
 
 double PoseSearch::length(double scale) const {
     return std::min(original_length_, scale * suspect_length_);
@@ -127,6 +138,7 @@ void PoseSearch::consider(const Proposals& proposals, int keep, double start_cut
     const Points points{spread_points(original_.model.features.samples, refining_points),
                         spread_points(suspect_.model.features.samples, refining_points)};
     for (std::size_t i = 0; i < chosen.size(); ++i) {
+        if (out_of_time()) break;
         progress.report(0.5 + 0.5 * i / chosen.size(), "refining poses");
         ScoredPose pose{.hypothesis = chosen[i]};
         if (!approach(pose, points, start_cutoff, progress)) continue;

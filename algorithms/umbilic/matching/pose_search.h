@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <chrono>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -45,6 +47,8 @@ public:
     const Ground& suspect() const { return suspect_; }
     const PoseDistance& distance() const { return distance_; }
     const MatchOptions& options() const { return options_; }
+    /// True once MatchOptions::seconds have passed since the search began.
+    bool out_of_time() const;
     /// Lengths in mm that the files themselves leave open: conversion errors and stated tolerances of both models, the
     /// suspect's times `scale`.
     double stated_tolerance(double scale) const;
@@ -74,6 +78,7 @@ private:
     TableGround original_samples_;  ///< stands in for the surface while a pose is still rough
     TableGround suspect_samples_;
     MatchOptions options_;
+    std::optional<std::chrono::steady_clock::time_point> deadline_;
     PoseDistance distance_;
     double original_length_ = 0.0;
     double suspect_length_ = 0.0;
