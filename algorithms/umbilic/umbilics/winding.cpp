@@ -58,6 +58,15 @@ double restrict_to(std::vector<double>& coefficients, double low, double high) {
     return factor;
 }
 
+/// How far coefficients of a part move because its ends are known to a unit roundoff of the whole only: each of a
+/// coefficient's arguments that is an end moves it by a difference over the part's length.
+double placing_error(const std::vector<double>& coefficients, double length) {
+    double difference = 0.0;
+    for (std::size_t k = 1; k < coefficients.size(); ++k)
+        difference = std::max(difference, std::abs(coefficients[k] - coefficients[k - 1]));
+    return 4 * unit_roundoff * static_cast<double>(coefficients.size() - 1) * difference / length * bound_slack;
+}
+
 /// What a tensor array is along the line at t across it, on `part` of that line. Errors of single coefficients are
 /// followed within the patch only, where all steps are convex.
 BoundedCurve along_line(CoefficientShape shape, const std::vector<double>& c, double error,
@@ -77,6 +86,7 @@ BoundedCurve along_line(CoefficientShape shape, const std::vector<double>& c, do
     if (single_errors) restrict_to(result.errors, part.low, part.high);
     result.widen(arithmetic, relative);
     result.error *= factor * bound_slack;
+    result.widen(placing_error(result.coefficients, part.length()), 0.0);
     return result;
 }
 
