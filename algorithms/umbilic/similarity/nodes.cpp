@@ -20,20 +20,39 @@ double angle_between_lines(const Vector3& a, const Vector3& b) {
     return std::atan2(a.cross(b).norm(), std::abs(a.dot(b)));
 }
 
-/// The curvature at the foot that agrees best with the node's: next to a knot line of reduced continuity the foot may
+/// Every curvature a model may be said to have at a place known within `radius` (mm of the original), in the original's
+/// frame.
+std::vector<Curvature> placed_curvatures(const PlacedModel& model, const SurfacePoint& at, double radius) {
+    std::vector<Curvature> result =
+        curvatures_within(model.prepared.model.face(at.face), at.u, at.v, radius / model.original_model.scale);
+    for (Curvature& curvature : result) curvature = placed(curvature, model);
+    return result;
+}
+
+struct CurvaturePair {
+    Curvature node, foot;
+};
+
+/// The curvatures of node and foot that agree best: next to a knot line of reduced continuity either of the two may
 /// have come to lie on the other side.
-std::optional<Curvature> best_foot_curvature(const PlacedModel& other, const SurfacePoint& foot, double radius,
-                                             const Curvature& node) {
-    std::optional<Curvature> best;
-    double best_difference = 0.0;
-    for (const Curvature& candidate : curvatures_within(other.prepared.model.face(foot.face), foot.u, foot.v, radius)) {
-        const Curvature c = placed(candidate, other);
-        const double difference = std::abs(c.kappa_max - node.kappa_max) + std::abs(c.kappa_min - node.kappa_min);
-        if (best && difference >= best_difference) continue;
-        best = c;
-        best_difference = difference;
+std::optional<CurvaturePair> best_pair(const Curvature& node, const std::vector<Curvature>& nodes,
+                                       const std::vector<Curvature>& feet) {
+    if (feet.empty()) return {};
+    const auto difference = [](const Curvature& a, const Curvature& b) {
+        return std::abs(a.kappa_max - b.kappa_max) + std::abs(a.kappa_min - b.kappa_min);
+    };
+    CurvaturePair best{node, feet.front()};
+    for (const Curvature& foot : feet) {
+        if (difference(node, foot) < difference(best.node, best.foot)) best = {node, foot};
+        for (const Curvature& other : nodes)
+            if (difference(other, foot) < difference(best.node, best.foot)) best = {other, foot};
     }
     return best;
+}
+
+/// False where the surface bends more tightly than places are told apart: a copy within delta_0 need not bend alike.
+bool resolved(const Curvature& curvature, const NodeTolerances& tolerances) {
+    return std::max(std::abs(curvature.kappa_max), std::abs(curvature.kappa_min)) * tolerances.distance <= 1.0;
 }
 
 void compare_curvatures(NodeComparison& comparison, const Curvature& node, const Curvature& foot, double significant) {
@@ -111,13 +130,15 @@ DirectedComparison compare_nodes(const PlacedModel& model, const NodeSet& nodes,
         comparison.weight = sample.weight * area_scale;
         comparison.distance = foot.distance;
         comparison.covered = foot.distance <= tolerances.distance;
-        const std::optional<Curvature> there = best_foot_curvature(other, foot.at, tolerances.distance, node);
-        if (there) {
-            const Vector3& outward = model.is_original ? node.normal : there->normal;
+        const auto pair = best_pair(node, placed_curvatures(model, sample.at, tolerances.distance),
+                                    placed_curvatures(other, foot.at, tolerances.distance));
+        if (pair) {
+            const Vector3& outward = model.is_original ? node.normal : pair->foot.normal;
             const Vector3 suspect_from_original =
                 model.is_original ? Vector3(foot.point - feet.nodes[i]) : Vector3(feet.nodes[i] - foot.point);
             comparison.signed_distance = std::copysign(foot.distance, suspect_from_original.dot(outward));
-            if (foot.kind == FootKind::interior) compare_curvatures(comparison, node, *there, tolerances.kappa);
+            if (foot.kind == FootKind::interior && resolved(pair->node, tolerances) && resolved(pair->foot, tolerances))
+                compare_curvatures(comparison, pair->node, pair->foot, tolerances.kappa);
         } else {
             comparison.signed_distance = foot.distance;
         }

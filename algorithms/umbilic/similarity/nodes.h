@@ -47,8 +47,9 @@ struct NodeTolerances {
 };
 
 /// The quantities of the thesis's assessment (4.4.4) at every node, with their statistics. Curvatures are left out
-/// where the foot lies on a trimming edge, or node or foot is singular; directions also where kappa_max - kappa_min is
-/// not significant at node or foot.
+/// where the foot lies on a trimming edge, where node or foot is singular or bends more tightly than the radius delta_0
+/// (next to tips and poles, where curvatures grow without bound and places within the tolerance differ in them);
+/// directions also where kappa_max - kappa_min is not significant at node or foot.
 DirectedComparison compare_nodes(const PlacedModel& model, const NodeSet& nodes, const PlacedModel& other,
                                  const Feet& feet, const NodeTolerances& tolerances);
 
