@@ -10,6 +10,7 @@
 
 #include <occ_adapter/read_file.h>
 #include <umbilic/matching/prepared_points.h>
+#include <umbilic/core/errors.h>
 #include <umbilic/points/fit_points.h>
 
 #include <cli/commands.h>
@@ -57,6 +58,17 @@ std::string summary(const FitWords& words, const FitResult& fit) {
                                  : "Report: " + (std::filesystem::path(words.report) / "report.html").string() + "\n");
 }
 
+/// The fit; what is wrong with the points is said of their file.
+FitResult fitted(const PointCloud& cloud, const FitWords& words, const Progress& progress) {
+    try {
+        return fit_points(cloud, words.fit, progress);
+    } catch (const InvalidInput& error) {
+        throw InvalidInput(words.points + ": " + error.what());
+    } catch (const Unsupported& error) {
+        throw Unsupported(words.points + ": " + error.what());
+    }
+}
+
 int run_fit(const Session& session, const FitWords& words) {
     using Clock = std::chrono::steady_clock;
     Timing timing;
@@ -71,7 +83,7 @@ int run_fit(const Session& session, const FitWords& words) {
     const std::size_t most_points = words.fit.grid ? std::numeric_limits<std::size_t>::max() : words.most_points;
     const PointCloud cloud = load_points(session, words.points, most_points, progress.part(0.0, 0.1));
     lap("read");
-    const FitResult fit = fit_points(cloud, words.fit, progress.part(0.1, 0.8));
+    const FitResult fit = fitted(cloud, words, progress.part(0.1, 0.8));
     lap("fit");
     write_surface_step(fit.surface, words.output);
     lap("write");

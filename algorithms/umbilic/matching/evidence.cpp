@@ -97,7 +97,11 @@ public:
 
     void add(const Element& element) {
         if (element.form == Form::developable || element.form == Form::free) {
-            count_ += element.form == Form::free ? free_form_equations : developable_equations;
+            if (element.form == Form::free)
+                count_ += free_form_equations;
+            else if (!developable_)
+                count_ += developable_equations;
+            developable_ = developable_ || element.form == Form::developable;
             any_direction_ = true;
             return;
         }
@@ -142,6 +146,7 @@ private:
 
     double length_, tolerance_;  ///< mm
     int count_ = 0;
+    bool developable_ = false;
     bool any_direction_ = false;
     std::vector<Element> elements_;
     std::vector<double> radii_;
