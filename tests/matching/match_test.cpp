@@ -239,6 +239,23 @@ TEST(Match, EveryCopyInsideTheOriginalIsListed) {
     EXPECT_EQ(alignment.copies.size(), 2u);
 }
 
+TEST(Match, APieceBesideForeignMaterialIsFound) {
+    const NurbsSurface surface = rough_bicubic(10, 3);
+    const SimilarityTransform truth = random_similarity(9, 1.4, false);
+    Model piece = cut_out(transformed(surface, truth.inverse()), 0.2, 0.75, 0.3, 0.9);
+    Model both = model_of({transformed(smooth_bicubic(10, 77), random_similarity(6, 0.5, false, 2.0))});
+    both.faces.push_back(piece.faces.front());
+    both.faces.back().number = 2;
+    both.area += piece.area;
+    both.box.add(piece.box.low);
+    both.box.add(piece.box.high);
+    const Alignment alignment = match_models(model_of({surface}), both);
+    SCOPED_TRACE(alignment.why);
+    ASSERT_EQ(alignment.status, AlignmentStatus::found);
+    EXPECT_LT(pose_error(alignment.original_suspect, truth, model_of({surface})), 1e-9);
+    EXPECT_LT(alignment.suspect_coverage, 0.6);
+}
+
 TEST(Match, ATimeLimitLeavesTheBestPoseSoFar) {
     const NurbsSurface surface = rough_bicubic(10, 3);
     const Model original = model_of({surface});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <umbilic/matching/match.h>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -31,6 +31,9 @@ constexpr double analytic_error = 5e-3, umbilics_error = 0.08, moments_error = 0
                  curvature_error = 0.15, kh_error = 0.1;
 /// Seeds looked up without the third order; on exact and re-approximated surfaces nearly every single seed succeeds.
 constexpr int second_order_seeds = 6;
+/// Faces of the suspect that propose poses by themselves: the largest ones, from this part of the area on.
+constexpr std::size_t most_faces = 8;
+constexpr double least_face_share = 0.05;
 
 Proposals given_poses(const MatchOptions& options) {
     Proposals result;
@@ -69,6 +72,27 @@ Proposals poses_by_principal_frame(const PreparedModel& original, const Prepared
         result.poses.push_back(
             {swapped ? pose.original_suspect.inverse() : pose.original_suspect, MatchMethod::curvature});
     if (result.poses.empty()) result.why += " proposed no pose";
+    return result;
+}
+
+/// The same from single faces of the suspect, each tested on itself: what else the suspect holds may be foreign.
+Proposals poses_by_faces(const PreparedModel& original, const PreparedModel& suspect, const MatchOptions& match,
+                         const Progress& progress) {
+    const PrincipalFrameOptions options{.flip_normals = !(original.model.oriented() && suspect.model.oriented()),
+                                        .scale = match.scale,
+                                        .mirror = match.mirror};
+    std::vector<const Face*> faces;
+    for (const Face& face : suspect.model.faces)
+        if (face.area >= least_face_share * suspect.model.area) faces.push_back(&face);
+    std::stable_sort(faces.begin(), faces.end(), [](const Face* a, const Face* b) { return a->area > b->area; });
+    if (faces.size() > most_faces) faces.resize(most_faces);
+    Proposals result{.why = "curvature: third order, " + std::to_string(faces.size()) + " faces one by one"};
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        const Progress part = progress.part(double(i) / faces.size(), double(i + 1) / faces.size());
+        for (const PoseCandidate& pose :
+             propose_by_principal_frame(original.table, suspect.table.of_face(faces[i]->number), options, part))
+            result.poses.push_back({pose.original_suspect, MatchMethod::curvature});
+    }
     return result;
 }
 
@@ -138,17 +162,22 @@ Alignment match(const PreparedModel& original, const PreparedModel& suspect, con
         consider(poses_by_moments(original, suspect, options.scale, options.mirror), refined_moments, moments_error,
                  progress.part(0.5, 0.6));
     if (wanted(MethodChoice::curvature)) {
-        double fraction = 0.6;
-        // Without the third order there are some hundred times as many hypotheses: last, and on one side.
-        constexpr std::array<std::pair<bool, bool>, 3> passes = {{{true, false}, {true, true}, {false, false}}};
-        for (const auto& [third_order, swapped] : passes) {
-            const Progress part = progress.part(fraction, fraction + 0.1);
-            fraction += 0.1;
+        const auto look_up = [&](double fraction, const auto& propose) {
+            const Progress part = progress.part(fraction, fraction + 0.07);
             if (!search.out_of_time() && !settled(search))
-                consider(
-                    poses_by_principal_frame(original, suspect, options, third_order, swapped, part.part(0.0, 0.5)),
-                    refined_poses, curvature_error, part.part(0.5, 1.0));
-        }
+                consider(propose(part.part(0.0, 0.5)), refined_poses, curvature_error, part.part(0.5, 1.0));
+        };
+        const auto whole = [&](bool third_order, bool swapped) {
+            return [&, third_order, swapped](const Progress& part) {
+                return poses_by_principal_frame(original, suspect, options, third_order, swapped, part);
+            };
+        };
+        look_up(0.6, whole(true, false));
+        look_up(0.67, whole(true, true));
+        if (suspect.model.faces.size() > 1)
+            look_up(0.74, [&](const Progress& part) { return poses_by_faces(original, suspect, options, part); });
+        // Without the third order there are some hundred times as many hypotheses: last, and on one side.
+        look_up(0.81, whole(false, false));
     }
     if (options.method == MethodChoice::kh) {
         for (const bool swapped : {false, true}) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include <nanoflann.hpp>
@@ -99,7 +100,7 @@ PrincipalFrameTable::PrincipalFrameTable(const Model& model, int count, const Pr
             const SurfaceDerivatives d = face.surface.derivatives(samples[i].at.u, samples[i].at.v, 3);
             // The frame is taken anew: the sign of its directions must be the one the signature's cubic refers to.
             const Curvature frame = curvature(d);
-            entries_[i] = {face.reversed ? flipped(frame) : frame, shape_signature(d, !face.reversed)};
+            entries_[i] = {face.reversed ? flipped(frame) : frame, shape_signature(d, !face.reversed), face.number};
         }
     });
     step_ = entries_.empty() ? 0.0 : std::sqrt(model.area / static_cast<double>(entries_.size()));
@@ -109,6 +110,13 @@ PrincipalFrameTable::PrincipalFrameTable(const Model& model, int count, const Pr
 PrincipalFrameTable::PrincipalFrameTable(std::vector<Entry> entries, double step)
     : entries_(std::move(entries)), step_(step) {
     arrange();
+}
+
+PrincipalFrameTable PrincipalFrameTable::of_face(int face) const {
+    std::vector<Entry> entries;
+    std::copy_if(entries_.begin(), entries_.end(), std::back_inserter(entries),
+                 [&](const Entry& entry) { return entry.face == face; });
+    return PrincipalFrameTable(std::move(entries), step_);
 }
 
 void PrincipalFrameTable::arrange() {

@@ -39,6 +39,7 @@ public:
     struct Entry {
         Curvature frame;
         ShapeSignature signature;
+        int face = 0;  ///< number of the model's face; 0 of measured points
     };
 
     /// `count`: samples over the whole model. Throws Cancelled.
@@ -47,6 +48,9 @@ public:
     PrincipalFrameTable(std::vector<Entry> entries, double step);
     ~PrincipalFrameTable();
     PrincipalFrameTable(PrincipalFrameTable&&) noexcept;
+
+    /// The entries of one face by themselves.
+    PrincipalFrameTable of_face(int face) const;
 
     /// All regular samples, flat and umbilic ones included, by increasing angle.
     const std::vector<Entry>& entries() const { return entries_; }
