@@ -248,7 +248,8 @@ def compare(
 ) -> Comparison:
     """Tells whether the suspect, or a piece of it, is a copy of the original.
 
-    Either is what `read` takes; measured points as the original need points as the suspect. `seconds` limits the reading of each model. Options, all optional, named as on the command line:
+    Either is what `read` takes; measured points as the original need points as the suspect. `seconds` limits the
+    reading of each model. Options, all optional, named as on the command line:
 
     method            "auto", "analytic", "umbilics", "moments", "curvature" or "kh"; "points" of measured points
     scale             "auto", "fixed" (it is 1) or (low, high)
@@ -281,7 +282,8 @@ def report(comparison: Comparison, directory: "str | os.PathLike[str]", *, progr
     """Writes the report of a comparison into a folder, which is made, and returns the path of its report.html.
 
     The folder holds report.html (complete in itself), result.json, deviation.csv and, if a pose was found,
-    aligned.step (aligned.ply of measured points). Raises NumericFailure if something cannot be written, and Cancelled; then nothing was.
+    aligned.step (aligned.ply of measured points). Raises NumericFailure if something cannot be written, and Cancelled;
+    then nothing was.
     """
     inputs = comparison.to_dict()["inputs"]
     words = [repr(inputs[which]["path"]) for which in ("original", "suspect")]
