@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include <BRepAlgoAPI_Common.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
@@ -27,6 +28,7 @@
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
+#include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <gp_Ax2.hxx>
@@ -143,6 +145,32 @@ std::vector<MechanicalPart> made_parts() {
             {"plate", plate_with_slot()},
             {"bracket as NURBS", as_nurbs(bracket())},
             {"housing as NURBS", as_nurbs(housing())}};
+}
+
+TopoDS_Shape plate_with_bosses(int count, unsigned seed) {
+    constexpr double pitch = 10.0, thickness = 4.0;
+    const int side = static_cast<int>(std::ceil(std::sqrt(count)));
+    std::mt19937_64 random(seed);
+    const auto uniform = [&](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    TopTools_ListOfShape plate, bosses;
+    plate.Append(block(0, 0, 0, side * pitch, side * pitch, thickness));
+    for (int k = 0; k < count; ++k) {
+        const gp_Pnt foot((k % side + 0.5) * pitch, (k / side + 0.5) * pitch, thickness - 1.0);
+        const double radius = uniform(1.0, 4.0), height = uniform(2.0, 8.0);
+        if (k % 3 == 0)
+            bosses.Append(rod(foot, z_axis, radius, height));
+        else if (k % 3 == 1)
+            bosses.Append(BRepPrimAPI_MakeCone(gp_Ax2(foot, z_axis), radius, 0.6 * radius, height).Shape());
+        else
+            bosses.Append(BRepPrimAPI_MakeSphere(foot, radius).Shape());
+    }
+    BRepAlgoAPI_Fuse fuse;
+    fuse.SetArguments(plate);
+    fuse.SetTools(bosses);
+    fuse.Build();
+    return fuse.Shape();
 }
 
 std::vector<MechanicalPart> parts_of_file(const std::string& path, const std::string& name, int count) {

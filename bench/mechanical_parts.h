@@ -18,6 +18,10 @@ struct MechanicalPart {
 /// Bracket, flange with six holes, shaft, housing, prismatic blocks; two of them also with all faces as NURBS.
 std::vector<MechanicalPart> made_parts();
 
+/// A square plate with `count` round bosses on a grid, cylinders, cones and spheres by turns with random radii and
+/// heights; some 5 faces for every three bosses, and the plate's top trimmed by all of them.
+TopoDS_Shape plate_with_bosses(int count, unsigned seed);
+
 /// Solids of a CAD file, those of different volume, at most `count`.
 std::vector<MechanicalPart> parts_of_file(const std::string& path, const std::string& name, int count);
 

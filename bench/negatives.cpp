@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Every ordered pair of different objects among the given files, compared: none may be called derived.
-// negatives FILE...
-// Files of one family (their names agree up to the first '_' or '.') are versions of one object and are not paired.
+// negatives [--every-version] FILE...
+// Files of one family (their names agree up to the first '_' or '.') are versions of one object: they are not paired,
+// and of each family the first file alone takes part unless --every-version is given.
 // Prints the pairs whose verdict is not "none" or whose alignment is more than "not found", and a table of counts.
-#include <array>
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -38,8 +39,11 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 int main(int argc, char** argv) {
     std::vector<std::unique_ptr<Entry>> entries;
-    for (int i = 1; i < argc; ++i) {
+    const bool every_version = argc > 1 && std::string(argv[1]) == "--every-version";
+    for (int i = every_version ? 2 : 1; i < argc; ++i) {
         const std::string name = std::filesystem::path(argv[i]).filename().string();
+        const auto of_family = [&](const auto& entry) { return entry->family == family_of(name); };
+        if (!every_version && std::any_of(entries.begin(), entries.end(), of_family)) continue;
         try {
             auto entry = std::make_unique<Entry>(Entry{name, family_of(name), read_file(argv[i]).model, nullptr});
             entry->prepared = std::make_unique<PreparedModel>(prepare(entry->model));

@@ -5,7 +5,9 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 
+#include <umbilic/differential/elementary_fit.h>
 #include <umbilic/matching/pose_distance.h>
 
 namespace umbilic {
@@ -13,7 +15,11 @@ namespace umbilic {
 namespace {
 
 /// Fewer covered samples than these tell nothing about a face's form.
-constexpr int fewest_samples = 3;
+constexpr std::size_t fewest_samples = 3;
+
+/// A covered sample counts if at least half of its nearest samples on the same face, this many, are covered too: there
+/// the surfaces lie on each other. Where they only cross, a narrow band is within the tolerance.
+constexpr std::size_t neighbours = 6;
 
 /// Two elementary surfaces are the same if they differ by less than this many tolerances.
 constexpr double same_surface = 10.0;
@@ -35,17 +41,18 @@ struct Element {
 };
 
 struct CoveredFace {
+    std::vector<Vector3> points;
     BoundingBox box;
-    int count = 0;
     double largest_max = 0.0, smallest_max = 0.0, largest_min = 0.0, smallest_min = 0.0;
     Curvature first;
 
     void add(const Curvature& c) {
-        if (count++ == 0) {
+        if (points.empty()) {
             first = c;
             largest_max = smallest_max = c.kappa_max;
             largest_min = smallest_min = c.kappa_min;
         }
+        points.push_back(c.point);
         box.add(c.point);
         largest_max = std::max(largest_max, c.kappa_max);
         smallest_max = std::min(smallest_max, c.kappa_max);
@@ -54,7 +61,20 @@ struct CoveredFace {
     }
 };
 
+/// The plane on which the points lie to within `departure`, mm.
+std::optional<Element> plane_of(const std::vector<Vector3>& points, const ShapeSize& size, double departure) {
+    const std::optional<ElementarySurface> plane = plane_through(points);
+    const auto on_plane = [&](const Vector3& point) {
+        return std::abs(plane->axis.dot(point - plane->location)) <= departure;
+    };
+    if (!plane || !std::all_of(points.begin(), points.end(), on_plane)) return std::nullopt;
+    return Element{.form = Form::plane,
+                   .direction = plane->axis,
+                   .location = plane->axis.dot(plane->location - size.centroid) * plane->axis};
+}
+
 Element element_of(const CoveredFace& face, const AnalyticFeature* feature, const ShapeSize& size, double departure) {
+    if (const std::optional<Element> plane = plane_of(face.points, size, departure)) return *plane;
     // A curvature of kappa over a width d lifts a surface by kappa d^2 / 8.
     const double width = face.box.diagonal();
     const auto negligible = [&](double kappa) { return std::abs(kappa) * width * width / 8.0 <= departure; };
@@ -65,11 +85,7 @@ Element element_of(const CoveredFace& face, const AnalyticFeature* feature, cons
 
     const Curvature& c = face.first;
     Element element;
-    if (max_zero && min_zero) {
-        element.form = Form::plane;
-        element.direction = c.normal;
-        element.location = c.normal.dot(c.point - size.centroid) * c.normal;
-    } else if ((max_zero && min_constant) || (min_zero && max_constant)) {
+    if ((max_zero && min_constant) || (min_zero && max_constant)) {
         const double kappa = min_zero ? c.kappa_max : c.kappa_min;
         const Vector3 axis = min_zero ? c.direction_min : c.direction_max;
         const Vector3 centre = c.point - c.normal / kappa - size.centroid;
@@ -152,14 +168,35 @@ private:
     std::vector<double> radii_;
 };
 
+/// True if the surfaces lie on each other around the sample `i` of a face that has the samples `on_face`.
+bool amid_covered(std::size_t i, const std::vector<std::size_t>& on_face, const std::vector<AreaSample>& samples,
+                  const std::vector<bool>& covered) {
+    std::vector<std::pair<double, bool>> others;  // squared distance, covered
+    for (const std::size_t other : on_face)
+        if (other != i)
+            others.emplace_back((samples[other].curvature.point - samples[i].curvature.point).squaredNorm(),
+                                covered[other]);
+    const std::size_t count = std::min(neighbours, others.size());
+    std::partial_sort(others.begin(), others.begin() + count, others.end());
+    const auto near = std::count_if(others.begin(), others.begin() + count, [](const auto& o) { return o.second; });
+    return 2 * static_cast<std::size_t>(near) >= count;
+}
+
 }  // namespace
 
 int satisfied_equations(const PreparedModel& model, const std::vector<double>& distances, double tolerance,
                         double scale) {
-    std::map<int, CoveredFace> faces;
     const auto& samples = model.features.samples;
-    for (std::size_t i = 0; i < samples.size(); ++i)
-        if (distances[i] <= tolerance) faces[samples[i].at.face].add(samples[i].curvature);
+    std::vector<bool> covered(samples.size());
+    std::map<int, std::vector<std::size_t>> on_faces;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        covered[i] = distances[i] <= tolerance;
+        on_faces[samples[i].at.face].push_back(i);
+    }
+    std::map<int, CoveredFace> faces;
+    for (const auto& [number, on_face] : on_faces)
+        for (const std::size_t i : on_face)
+            if (covered[i] && amid_covered(i, on_face, samples, covered)) faces[number].add(samples[i].curvature);
 
     std::map<int, const AnalyticFeature*> features;
     for (const AnalyticFeature& feature : model.features.analytic)
@@ -169,7 +206,7 @@ int satisfied_equations(const PreparedModel& model, const std::vector<double>& d
     const double own_tolerance = tolerance / scale;
     Conditions conditions(size.length, same_surface * own_tolerance);
     for (const auto& [number, face] : faces) {
-        if (face.count < fewest_samples) continue;
+        if (face.points.size() < fewest_samples) continue;
         const auto feature = features.find(number);
         conditions.add(element_of(face, feature == features.end() ? nullptr : feature->second, size,
                                   elementary_departure * own_tolerance));

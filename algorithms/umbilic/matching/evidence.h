@@ -19,10 +19,11 @@ inline constexpr double elementary_departure = 3.0;
 /// for each plane (its offset), 2 for each axis, 3 for each sphere (centre), 1 for the place of a cone or torus on its
 /// axis, 1 for each different radius, 4 for other developable surfaces together (pieces of one sweep are not told
 /// apart), free_form_equations for any other. Coplanar planes and equal surfaces count once. Elementary surfaces are
-/// told from the curvatures of the samples, whatever form their file gave them, cones and tori from the model's
-/// analytic features. Taken off are the turns that directions do not fix: 1 where all are parallel, 3 where there are
-/// none. A pose with free scale uses up four more (translation and scale): what exceeds that is evidence; a single
-/// plane, cylinder, cone, sphere or torus is none. `distances`: of the model's samples from the other model;
+/// told from the samples, planes by their places and others by their curvatures, whatever form their file gave them,
+/// cones and tori from the model's analytic features. Samples count where the surfaces lie on each other over an area,
+/// not along a line of crossing. Taken off are the turns that directions do not fix: 1 where all are parallel, 3 where
+/// there are none. A pose with free scale uses up four more (translation and scale): what exceeds that is evidence; a
+/// single plane, cylinder, cone, sphere or torus is none. `distances`: of the model's samples from the other model;
 /// `tolerance`: in the same unit, mm of the other model, which is `scale` mm of the model itself.
 int satisfied_equations(const PreparedModel& model, const std::vector<double>& distances, double tolerance,
                         double scale);
