@@ -17,10 +17,6 @@ namespace {
 /// Fewer covered samples than these tell nothing about a face's form.
 constexpr std::size_t fewest_samples = 3;
 
-/// A covered sample counts if at least half of its nearest samples on the same face, this many, are covered too: there
-/// the surfaces lie on each other. Where they only cross, a narrow band is within the tolerance.
-constexpr std::size_t neighbours = 6;
-
 /// Two elementary surfaces are the same if they differ by less than this many tolerances.
 constexpr double same_surface = 10.0;
 
@@ -168,35 +164,24 @@ private:
     std::vector<double> radii_;
 };
 
-/// True if the surfaces lie on each other around the sample `i` of a face that has the samples `on_face`.
-bool amid_covered(std::size_t i, const std::vector<std::size_t>& on_face, const std::vector<AreaSample>& samples,
-                  const std::vector<bool>& covered) {
-    std::vector<std::pair<double, bool>> others;  // squared distance, covered
-    for (const std::size_t other : on_face)
-        if (other != i)
-            others.emplace_back((samples[other].curvature.point - samples[i].curvature.point).squaredNorm(),
-                                covered[other]);
-    const std::size_t count = std::min(neighbours, others.size());
-    std::partial_sort(others.begin(), others.begin() + count, others.end());
-    const auto near = std::count_if(others.begin(), others.begin() + count, [](const auto& o) { return o.second; });
-    return 2 * static_cast<std::size_t>(near) >= count;
+/// True if at least half of a covered sample's neighbours are covered too: there the surfaces lie on each other. Where
+/// they only cross, a narrow band is within the tolerance.
+bool amid_covered(const std::vector<int>& neighbours, const std::vector<bool>& covered) {
+    return 2 * std::count_if(neighbours.begin(), neighbours.end(), [&](int i) { return covered[i]; }) >=
+           static_cast<std::ptrdiff_t>(neighbours.size());
 }
 
 }  // namespace
 
 int satisfied_equations(const PreparedModel& model, const std::vector<double>& distances, double tolerance,
                         double scale) {
-    const auto& samples = model.features.samples;
-    std::vector<bool> covered(samples.size());
-    std::map<int, std::vector<std::size_t>> on_faces;
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        covered[i] = distances[i] <= tolerance;
-        on_faces[samples[i].at.face].push_back(i);
-    }
+    std::vector<bool> covered;
+    for (const double distance : distances) covered.push_back(distance <= tolerance);
     std::map<int, CoveredFace> faces;
-    for (const auto& [number, on_face] : on_faces)
-        for (const std::size_t i : on_face)
-            if (covered[i] && amid_covered(i, on_face, samples, covered)) faces[number].add(samples[i].curvature);
+    const auto& samples = model.features.samples;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        if (covered[i] && amid_covered(model.features.neighbours[i], covered))
+            faces[samples[i].at.face].add(samples[i].curvature);
 
     std::map<int, const AnalyticFeature*> features;
     for (const AnalyticFeature& feature : model.features.analytic)

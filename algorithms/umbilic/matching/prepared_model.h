@@ -19,10 +19,15 @@ struct FeatureOptions {
     int table_samples = 20000;  ///< of the table of principal frames
 };
 
+inline constexpr int neighbours_of_sample = 6;
+
 /// Intrinsic features of a model: what matching and assessment need to know of its shape.
 struct Features {
     std::vector<FaceUmbilics> umbilics;  ///< one entry a face, in the model's order
     std::vector<AreaSample> samples;
+    /// For each sample those nearest to it on its own face (indices into `samples`), `neighbours_of_sample` of them or
+    /// all there are.
+    std::vector<std::vector<int>> neighbours;
     std::vector<AnalyticFeature> analytic;  ///< planes, cylinders and the like that its faces lie on
 };
 
