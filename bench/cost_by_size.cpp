@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Cost against size: models of 10 to 3,000 faces, surfaces of one to some thousand umbilics, each compared with a moved,
-// scaled and mirrored copy of itself.
-// cost_by_size [--threads N] [--largest N]
+// Cost against size: models of 10 to 3,000 faces, surfaces of one to some thousand umbilics, each compared with a
+// moved, scaled and mirrored copy of itself. cost_by_size [--threads N] [--largest N]
 //   --threads N  default 2
 //   --largest N  no model with more faces or umbilics than about N (default 5000)
 #include <array>
@@ -68,7 +67,8 @@ void print_head(const char* size) {
 
 void run(int threads, int largest) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    std::printf("wall time, %d threads; features: of one model; compare: the match, the nodes and the tests\n", threads);
+    std::printf("wall time, %d threads; features: of one model; compare: the match, the nodes and the tests\n",
+                threads);
     print_head("faces");
     for (const int count : bosses) {
         if (1.7 * count > largest) break;

@@ -48,8 +48,8 @@ TEST(Evidence, OfSurfacesThatOnlyCrossIsNone) {
 TEST(Evidence, OfOnePlaneIsNoneEvenWithRipplesWithinTheTolerance) {
     EXPECT_EQ(equations(graph([](double, double) { return 0.0; }), everywhere), 0);
     // A ripple of a thousandth whose curvature, over the whole width, would lift the surface by more than a tenth.
-    const Model rippled = support::model_of({support::graph_patch(
-        12, 1, [](double x, double) { return 1e-3 * std::cos(7.0 * x); })});
+    const Model rippled =
+        support::model_of({support::graph_patch(12, 1, [](double x, double) { return 1e-3 * std::cos(7.0 * x); })});
     EXPECT_EQ(equations(rippled, everywhere), 0);
 }
 

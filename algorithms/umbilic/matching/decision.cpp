@@ -93,6 +93,11 @@ std::vector<FreeMotion> open_motions(const ScoredPose& pose, const PoseSearch& s
     const SimilarityTransform& transform = pose.hypothesis.original_suspect;
     if (search.suspect_is_larger(transform.scale))
         for (FreeMotion& motion : motions) motion = motion.seen_through(transform);
+    // Compared by kind: a second motion of one kind goes with the first (two slides are named slide_in_plane).
+    std::erase_if(motions, [&](const FreeMotion& motion) {
+        return std::any_of(pose.fixed_by_borders.begin(), pose.fixed_by_borders.end(),
+                           [&](const FreeMotion& fixed) { return fixed.kind == motion.kind; });
+    });
     if (as_wholes(fit))
         std::erase_if(motions,
                       [&](const FreeMotion& motion) { return !keeps_outline(motion, pose, search, fit.tolerance); });
@@ -110,7 +115,9 @@ void demand_evidence(const ScoredPose& pose, const PoseSearch& search, Fit& fit)
     const ScaleChoice& choice = search.options().scale;
     const bool known = choice.kind == ScaleChoice::Kind::fixed || std::abs(scale - 1.0) * pose.length <= fit.tolerance;
     fit.free_motions = open_motions(pose, search, fit);
-    const int spare = equations - pose_unknowns + (known && as_wholes(fit) ? 1 : 0);
+    // A shared border that fixes a motion is one condition more.
+    const int spare =
+        equations + static_cast<int>(pose.fixed_by_borders.size()) - pose_unknowns + (known && as_wholes(fit) ? 1 : 0);
     const bool complete = fit.suspect.share >= whole || fit.original.share >= whole;
     if (spare < (as_wholes(fit) ? spare_whole : complete ? spare_piece : spare_partial)) {
         fit.level = FitLevel::compatible;
@@ -266,7 +273,11 @@ Alignment decide_alignment(PoseSearch& search, const std::string& tried, const P
     Ranked best{0, judge(poses[0], search)};
     for (std::size_t i = 1; i < poses.size(); ++i) {
         Fit fit = judge(poses[i], search);
-        if (fit.level > best.fit.level) best = {i, std::move(fit)};
+        if (fit.level < best.fit.level) continue;
+        const bool more_fixed = poses[i].fixed_by_borders.size() > poses[best.index].fixed_by_borders.size() &&
+                                fit.suspect.share >= best.fit.suspect.share - equal_share &&
+                                fit.original.share >= best.fit.original.share - equal_share;
+        if (fit.level > best.fit.level || more_fixed) best = {i, std::move(fit)};
     }
     // At one tolerance for all: poses that do as well, and the plainest of them as the winner.
     std::vector<Ranked> equals = {best};
@@ -275,7 +286,9 @@ Alignment decide_alignment(PoseSearch& search, const std::string& tried, const P
         if (i == best.index) continue;
         progress.check();
         Ranked other{i, fit_at(poses[i], search, best.fit.tolerance)};
+        // Where borders fix a motion, all that it could run through is equally covered, but not as good.
         const bool equal = best.fit.level != FitLevel::none && equally_good(poses[best.index], best.fit, other.fit) &&
+                           poses[i].fixed_by_borders.size() >= poses[best.index].fixed_by_borders.size() &&
                            search.distance().different(poses[best.index].hypothesis.original_suspect,
                                                        poses[i].hypothesis.original_suspect);
         (equal ? equals : others).push_back(std::move(other));
@@ -338,6 +351,12 @@ Alignment decide_alignment(PoseSearch& search, const std::string& tried, const P
     alignment.suspect_coverage = fit.suspect.share;
     alignment.original_coverage = fit.original.share;
     alignment.why = coverage_text(fit);
+    if (!winner.fixed_by_borders.empty())
+        alignment.why += printed(
+                             "; borders that both share, %.3g mm of them, fix the pose where the surfaces alone "
+                             "would leave it free: the suspect ",
+                             winner.shared_borders) +
+                         in_words(winner.fixed_by_borders);
     alignment.free_motions = fit.free_motions;
     const bool open = fit.level == FitLevel::compatible && !fit.free_motions.empty();
     if (strangers > 0 && !open) {

@@ -30,7 +30,8 @@ struct Fit {
 /// What coincides must over-determine the pose: satisfied equations (see satisfied_equations) beyond the four unknowns
 /// of scale and translation, four of them, two if one model lies on the other completely; if both do (the outlines
 /// agree too) one, and a scale that is 1 within the tolerance counts as it. And no motion may slide it along itself by
-/// a tenth of the length within the tolerance, unless the models agree as wholes, which then turn about their own axis.
+/// a tenth of the length within the tolerance, unless the models agree as wholes, which then turn about their own axis,
+/// or shared borders fix it (see fix_by_borders), each of which counts as one condition more.
 Fit judge(const ScoredPose& pose, const PoseSearch& search);
 
 /// True if a search need not go on: the best pose is found, and one model lies on the other completely, or the pose is

@@ -14,6 +14,7 @@
 #include <umbilic/matching/by_umbilics.h>
 #include <umbilic/matching/copies.h>
 #include <umbilic/matching/decision.h>
+#include <umbilic/matching/fix_by_borders.h>
 #include <umbilic/matching/horn.h>
 #include <umbilic/matching/pose_search.h>
 
@@ -187,6 +188,7 @@ Alignment match(const PreparedModel& original, const PreparedModel& suspect, con
                      part.part(0.8, 1.0));
         }
     }
+    if (!search.out_of_time()) fix_by_borders(search, progress.part(0.88, 0.9));
     if (search.out_of_time()) tried += tried.empty() ? "nothing in the time allowed" : "; the time allowed was used up";
     progress.report(0.9, "comparing poses");
     Alignment alignment = decide_alignment(search, tried, progress.part(0.9, 1.0));

@@ -156,6 +156,10 @@ void PoseSearch::consider(const Proposals& proposals, int keep, double start_cut
             *same = std::move(pose);
         }
     }
+    sort_poses();
+}
+
+void PoseSearch::sort_poses() {
     std::stable_sort(poses_.begin(), poses_.end(),
                      [](const ScoredPose& a, const ScoredPose& b) { return a.rank > b.rank; });
 }
@@ -166,8 +170,23 @@ std::vector<ScoredPose>::iterator PoseSearch::find_same(const ScoredPose& pose) 
     });
 }
 
+void PoseSearch::move_along(std::size_t index, const FreeMotion& motion, double amount, double shared_borders) {
+    // Not refined again: the surfaces would let it drift along the motion.
+    ScoredPose pose = poses_[index];
+    const SimilarityTransform move = motion.by(amount);
+    pose.hypothesis.original_suspect = compose(move, pose.hypothesis.original_suspect);
+    if (!suspect_is_larger(pose.hypothesis.original_suspect.scale))
+        pose.refinement.centre = move.apply(pose.refinement.centre);
+    pose.fixed_by_borders.push_back(motion);
+    pose.shared_borders = shared_borders;
+    measure(pose, original_, suspect_);
+    poses_.push_back(std::move(pose));
+    sort_poses();
+}
+
 void PoseSearch::polish(std::size_t index, const Progress& progress) {
     const ScoredPose& pose = poses_[index];
+    if (!pose.fixed_by_borders.empty()) return;
     if (pose.refinement.converged && pose.refinement.rms <= rounding * pose.length && !pose.approximate) return;
     const Points points{all_points(original_.model.features.samples), all_points(suspect_.model.features.samples)};
     ScoredPose better{.hypothesis = poses_[index].hypothesis};

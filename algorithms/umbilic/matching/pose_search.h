@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include <umbilic/matching/free_motions.h>
 #include <umbilic/matching/match.h>
 #include <umbilic/matching/pose_distance.h>
 #include <umbilic/matching/pose_hypothesis.h>
@@ -21,6 +22,10 @@ struct ScoredPose {
     Refinement refinement;                   ///< of the smaller model on the larger one
     std::vector<double> suspect_distances;   ///< sample by sample, mm of the original
     std::vector<double> original_distances;  ///< of the original's samples from the suspect, mm of the original
+    /// Motions that the surfaces would leave open and shared borders do not, and mm of the suspect's borders that show
+    /// it.
+    std::vector<FreeMotion> fixed_by_borders;
+    double shared_borders = 0.0;
     bool approximate = false;  ///< distances are those of the table of samples: the pose was not worth more
     double length = 0.0;       ///< of the smaller of the original and the moved suspect, mm of the original
     double rank = 0.0;         ///< soft shares of both models within the re-approximation tolerance, in [0, 2]
@@ -40,6 +45,10 @@ public:
 
     /// Refines the pose at `index` of poses() on all samples.
     void polish(std::size_t index, const Progress& progress);
+
+    /// Adds what becomes of the pose at `index` of poses() by a free motion, to an amount at which borders of this
+    /// length (mm) are shared.
+    void move_along(std::size_t index, const FreeMotion& motion, double amount, double shared_borders);
 
     /// Best first.
     const std::vector<ScoredPose>& poses() const { return poses_; }
@@ -67,6 +76,7 @@ private:
     bool refine_exactly(ScoredPose& pose, const Points& points, double start_cutoff, const Progress& progress) const;
     bool lay(ScoredPose& pose, const GroundSurface& ground, std::span<const WeightedPoint> points,
              const RefineOptions& options, const Progress& progress) const;
+    void sort_poses();
     std::vector<ScoredPose>::iterator find_same(const ScoredPose& pose);
     /// Distances of all samples of both models.
     void measure(ScoredPose& pose, const GroundSurface& original, const GroundSurface& suspect) const;
