@@ -115,5 +115,12 @@ TEST_F(RealPairs, UnrelatedModelsAreNotDerived) {
     EXPECT_FALSE(other.comparison.verdict.derived) << other.comparison.answer.text;
 }
 
+TEST_F(RealPairs, PlanesOfTwoShipsAreNoEvidence) {
+    // Flat sides, bottoms and decks: at scales of their own a third of the areas coincides.
+    const Pair pair = compare_files("../freeform/kvlcc2m_tanker_hull.iges", "../freeform/kcs_container_ship_hull.iges");
+    EXPECT_NE(pair.alignment().status, AlignmentStatus::found) << pair.alignment().why;
+    EXPECT_FALSE(pair.comparison.verdict.derived) << pair.comparison.answer.text;
+}
+
 }  // namespace
 }  // namespace umbilic

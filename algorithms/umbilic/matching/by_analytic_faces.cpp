@@ -369,8 +369,8 @@ std::vector<PoseHypothesis> different_poses(std::vector<ExplainedPose> found, co
 Proposals poses_by_analytic_faces(const PreparedModel& original, const PreparedModel& suspect, const ScaleChoice& scale,
                                   MirrorChoice mirror, const Progress& progress) {
     const std::size_t of_original = original.features.analytic.size(), of_suspect = suspect.features.analytic.size();
-    Proposals result{.why = "analytic faces: " + std::to_string(of_original) + " of the original and " +
-                            std::to_string(of_suspect) + " of the suspect"};
+    Proposals result{.why = "analytic faces (" + std::to_string(of_original) + " of the original, " +
+                            std::to_string(of_suspect) + " of the suspect)"};
     if (of_original == 0 || of_suspect == 0) return result;
 
     // Open shells are mostly turned the same way throughout; what their faces say is tried before it is ignored.
@@ -403,11 +403,11 @@ Proposals poses_by_analytic_faces(const PreparedModel& original, const PreparedM
     result.conclusive = !exhausted && made_of_elementary_faces(suspect.features) &&
                         (best >= explained || made_of_elementary_faces(original.features));
     result.poses = different_poses(std::move(found), PoseDistance(suspect.features));
-    result.why += result.poses.empty()
-                      ? " proposed no pose"
-                      : " gave " + std::to_string(result.poses.size()) + " pose" + (result.poses.size() > 1 ? "s" : "");
-    if (!determined) result.why += " (the suspect's do not fix one)";
-    if (exhausted) result.why += " (the search was cut short)";
+    result.why += result.poses.empty() ? " proposed no pose"
+                                       : " proposed " + std::to_string(result.poses.size()) + " pose" +
+                                             (result.poses.size() > 1 ? "s" : "");
+    if (!determined) result.why += ", the suspect's leaving a motion free";
+    if (exhausted) result.why += ", the search cut short";
     return result;
 }
 

@@ -11,6 +11,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <umbilic/matching/occupied_grid.h>
+
 namespace umbilic {
 
 namespace {
@@ -75,10 +77,17 @@ ShapeSignature mirrored(const ShapeSignature& signature) {
 
 struct PrincipalFrameTable::Index {
     explicit Index(const std::vector<Entry>& entries)
-        : positions{entries.data(), entries.size()}, tree(3, positions, {10}) {}
+        : positions{entries.data(), entries.size()}, tree(3, positions, {10}), grid(points_of(entries)) {}
+
+    static std::vector<Vector3> points_of(const std::vector<Entry>& entries) {
+        std::vector<Vector3> points;
+        for (const Entry& entry : entries) points.push_back(entry.frame.point);
+        return points;
+    }
 
     Positions positions;
     Tree tree;
+    OccupiedGrid grid;
 };
 
 PrincipalFrameTable::~PrincipalFrameTable() = default;
@@ -141,7 +150,7 @@ std::pair<int, int> PrincipalFrameTable::angle_range(double low, double high) co
 }
 
 const PrincipalFrameTable::Entry* PrincipalFrameTable::nearest(const Vector3& point, double limit) const {
-    if (entries_.empty()) return nullptr;
+    if (index_->grid.distance_bound(point) > limit) return nullptr;
     unsigned nearest = 0;
     double squared = 0.0;
     nanoflann::KNNResultSet<double, unsigned> result(1);
