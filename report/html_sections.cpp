@@ -195,6 +195,7 @@ void set_alignment(const Alignment& alignment, PageData& page) {
     };
     row("Status", name(alignment.status));
     row("How", alignment.why);
+    if (!alignment.given_pairs.empty()) row("Pairs of points", given_pairs_text(alignment.given_pairs));
     PageData matrix{PageData::type::list};
     if (alignment.status != AlignmentStatus::not_found) {
         row("Method", name(alignment.method));

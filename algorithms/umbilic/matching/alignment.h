@@ -28,6 +28,12 @@ struct PoseCandidate {
     double max = 0.0;  ///< largest such distance
 };
 
+/// A given pair of corresponding points beside the similarity that the consistent ones among all pairs fix.
+struct GivenPair {
+    double residual = 0.0;  ///< mm of the original
+    bool outlier = false;   ///< does not agree with the others and was left out
+};
+
 /// Where the suspect lies with respect to the original.
 struct Alignment {
     AlignmentStatus status = AlignmentStatus::not_found;
@@ -48,6 +54,7 @@ struct Alignment {
     std::vector<SimilarityTransform> copies;      ///< one pose a place, see copies.h; more than one where the original
                                                   ///< stands in the suspect, or the suspect in the original, repeatedly
     std::vector<FreeMotion> free_motions;         ///< of the suspect on the original, that no distance tells
+    std::vector<GivenPair> given_pairs;           ///< in the order given; empty without pairs
 
     bool found() const { return status == AlignmentStatus::found; }
 };

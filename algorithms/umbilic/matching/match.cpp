@@ -9,12 +9,12 @@
 #include <umbilic/core/errors.h>
 #include <umbilic/matching/by_analytic_faces.h>
 #include <umbilic/matching/by_curvature_points.h>
+#include <umbilic/matching/by_given_pairs.h>
 #include <umbilic/matching/by_moments.h>
 #include <umbilic/matching/by_principal_frame.h>
 #include <umbilic/matching/by_umbilics.h>
 #include <umbilic/matching/copies.h>
 #include <umbilic/matching/decision.h>
-#include <umbilic/matching/horn.h>
 #include <umbilic/matching/pose_search.h>
 
 namespace umbilic {
@@ -35,22 +35,15 @@ constexpr int second_order_seeds = 6;
 constexpr std::size_t most_faces = 8;
 constexpr double least_face_share = 0.05;
 
-Proposals given_poses(const MatchOptions& options) {
+Proposals given_poses(const MatchOptions& options, const std::vector<ConsistentPointFit>& pairs) {
     Proposals result;
     if (options.initial) {
         result.poses.push_back({*options.initial, MatchMethod::given});
         result.why = "the initial pose";
     }
-    if (options.pairs.empty()) return result;
-    std::vector<PointPair> pairs;
-    for (const auto& [original, suspect] : options.pairs) pairs.push_back({original, suspect});
-    const bool free_scale = options.scale.kind != ScaleChoice::Kind::fixed;
-    for (const bool mirrored : {false, true}) {
-        if (mirrored && options.mirror == MirrorChoice::never) continue;
-        const PointFit fit = fit_points(pairs, {.free_scale = free_scale, .mirrored = mirrored});
-        result.poses.push_back({fit.original_suspect, MatchMethod::given});
-    }
-    result.why += (result.why.empty() ? "" : ", ") + std::to_string(pairs.size()) + " given pairs of points";
+    if (pairs.empty()) return result;
+    for (const ConsistentPointFit& fit : pairs) result.poses.push_back({fit.original_suspect, MatchMethod::given});
+    result.why += (result.why.empty() ? "" : ", ") + described(pairs);
     return result;
 }
 
@@ -139,8 +132,9 @@ Alignment match(const PreparedModel& original, const PreparedModel& suspect, con
         search.consider(proposals, keep, error, part);
     };
 
-    if (options.initial || !options.pairs.empty())
-        consider(given_poses(options), refined_poses, given_error, progress.part(0.0, 0.05));
+    const std::vector<ConsistentPointFit> pairs = fit_given_pairs(options);
+    if (options.initial || !pairs.empty())
+        consider(given_poses(options, pairs), refined_poses, given_error, progress.part(0.0, 0.05));
     bool conclusive = false;
     const auto wanted = [&](MethodChoice method) {
         return (options.method == MethodChoice::automatic || options.method == method) && !conclusive &&
@@ -191,6 +185,7 @@ Alignment match(const PreparedModel& original, const PreparedModel& suspect, con
     progress.report(0.9, "comparing poses");
     Alignment alignment = decide_alignment(search, tried, progress.part(0.9, 1.0));
     alignment.copies = copies(alignment, original, suspect);
+    alignment.given_pairs = judged_pairs(pairs, alignment.original_suspect.mirrored);
     if (options.scope == ScopeChoice::global && alignment.status == AlignmentStatus::found &&
         alignment.scope == MatchScope::partial) {
         alignment.status = AlignmentStatus::compatible;

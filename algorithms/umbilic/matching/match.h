@@ -28,8 +28,8 @@ struct MatchOptions {
     /// Greatest difference of the scale-free invariants (delta, zeta) of two umbilics that may correspond, delta_omega
     /// of the thesis.
     double umbilic_invariant_tolerance = 0.15;
-    /// Time after which no further pose is tried and the best one so far is judged; none: until a pose convinces. With a
-    /// time limit results depend on the machine.
+    /// Time after which no further pose is tried and the best one so far is judged; none: until a pose convinces. With
+    /// a time limit results depend on the machine.
     std::optional<double> seconds;
 };
 
