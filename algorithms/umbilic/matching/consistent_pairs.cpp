@@ -10,6 +10,7 @@
 #include <random>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
 
@@ -134,6 +135,7 @@ public:
             const double cut = quantile(boost::math::chi_squared(3.0), share);
             consistency = share / cdf(boost::math::chi_squared(5.0), cut);
         }
+        deviation_ = std::sqrt(square / freedom_);
         const double rounding = printed_rounding * radius_;
         variance_ = std::max(consistency * square / freedom_, rounding * rounding);
     }
@@ -146,7 +148,8 @@ public:
         return r.dot(covariance.ldlt().solve(r)) / (3.0 * variance_);
     }
     double freedom() const { return freedom_; }
-    double deviation() const { return std::sqrt(variance_); }
+    /// As if the kept pairs were all right ones there are.
+    double deviation() const { return deviation_; }
 
 private:
     /// Motion of the pair's moved point with shift, turn and log(scale) about the centre.
@@ -164,7 +167,7 @@ private:
     double freedom_;
     Vector3 centre_ = Vector3::Zero();
     double radius_ = 0.0;
-    double variance_ = 0.0;
+    double variance_ = 0.0, deviation_ = 0.0;
     Eigen::LDLT<Eigen::MatrixXd> solver_;
 };
 
@@ -175,6 +178,7 @@ ConsistentPointFit fit_consistent_points(std::span<const PointPair> pairs, const
     PointFit fit = fit_points(pairs, options);
     const int n = static_cast<int>(pairs.size());
     Indices kept = best_half(pairs, std::max(3, n / 2 + 1), options);
+    std::sort(kept.begin(), kept.end());
     std::vector<bool> is_kept(n, false);
     for (const int i : kept) is_kept[i] = true;
 
@@ -198,7 +202,7 @@ ConsistentPointFit fit_consistent_points(std::span<const PointPair> pairs, const
         }
         const boost::math::fisher_f distribution(3.0, prediction.freedom());
         if (least > quantile(complement(distribution, false_outlier / n))) break;
-        kept.push_back(next);
+        kept.insert(std::upper_bound(kept.begin(), kept.end(), next), next);
         is_kept[next] = true;
     }
 
