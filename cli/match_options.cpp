@@ -48,10 +48,13 @@ void add_match_options(CLI::App& subcommand, MatchWords& words) {
     const char* const group = "Pose";
     subcommand
         .add_option("--method", words.options.match.method,
-                    "How poses are proposed: auto, analytic, umbilics, moments, curvature, kh or points")
+                    "How poses are proposed: auto, analytic, umbilics, umbilics-lines, umbilics-kh, moments, "
+                    "curvature, kh or points")
         ->transform(CLI::CheckedTransformer(std::map<std::string, MethodChoice>{{"auto", MethodChoice::automatic},
                                                                                 {"analytic", MethodChoice::analytic},
                                                                                 {"umbilics", MethodChoice::umbilics},
+                                                                                {"umbilics-lines", MethodChoice::umbilic_lines},
+                                                                                {"umbilics-kh", MethodChoice::umbilic_kh},
                                                                                 {"moments", MethodChoice::moments},
                                                                                 {"curvature", MethodChoice::curvature},
                                                                                 {"kh", MethodChoice::kh},

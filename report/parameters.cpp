@@ -21,6 +21,10 @@ std::string word(MethodChoice choice) {
             return "analytic";
         case MethodChoice::umbilics:
             return "umbilics";
+        case MethodChoice::umbilic_lines:
+            return "umbilics-lines";
+        case MethodChoice::umbilic_kh:
+            return "umbilics-kh";
         case MethodChoice::moments:
             return "moments";
         case MethodChoice::curvature:

@@ -109,6 +109,8 @@ CompareOptions comparison_options(const py::dict& keywords) {
                                                            {{"auto", MethodChoice::automatic},
                                                             {"analytic", MethodChoice::analytic},
                                                             {"umbilics", MethodChoice::umbilics},
+                                                            {"umbilics-lines", MethodChoice::umbilic_lines},
+                                                            {"umbilics-kh", MethodChoice::umbilic_kh},
                                                             {"moments", MethodChoice::moments},
                                                             {"curvature", MethodChoice::curvature},
                                                             {"kh", MethodChoice::kh},

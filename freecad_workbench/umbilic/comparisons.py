@@ -251,7 +251,8 @@ def compare(
     Either is what `read` takes; measured points as the original need points as the suspect. `seconds` limits the
     reading of each model. Options, all optional, named as on the command line:
 
-    method            "auto", "analytic", "umbilics", "moments", "curvature" or "kh"; "points" of measured points
+    method            "auto", "analytic", "umbilics", "moments" or "curvature", "points" of measured points, and
+                      the thesis's "umbilics-lines", "umbilics-kh" and "kh"
     scale             "auto", "fixed" (it is 1) or (low, high)
     scale_search      "golden" (section) or "brent": how "kh" searches a scale that is not fixed
     mirror            "auto" or "never"

@@ -323,27 +323,51 @@ std::vector<CurvatureSeed> choose_curvature_seeds(const PreparedModel& model, in
     return result;
 }
 
-Proposals poses_by_curvature_points(const PreparedModel& original, const PreparedModel& suspect,
-                                    const CurvaturePointMatching& options, const Progress& progress) {
-    const CurvaturePointSearch search(original, suspect, options);
+namespace {
+
+Proposals first_words(const CurvaturePointSearch& search) {
     if (search.seeds().empty() || search.faces() == 0)
         return {.why = std::string("kh: ") + (search.faces() == 0 ? "the original" : "the suspect") +
                        " has no face on which Gaussian and mean curvature together tell the place"};
-    Proposals result{.why = "kh: " + std::to_string(search.seeds().size()) + " points of the suspect"};
-    const auto hand_on = [&](const std::vector<Hypothesis>& poses) {
-        for (const Hypothesis& hypothesis : poses) result.poses.push_back({hypothesis.pose, MatchMethod::kh});
-    };
-    if (options.scale.kind == ScaleChoice::Kind::fixed) {
-        std::vector<Hypothesis> poses = search.poses(1.0, 0.0, most_proposals, progress);
+    return {.why = "kh: " + std::to_string(search.seeds().size()) + " points of the suspect"};
+}
+
+void hand_on(const std::vector<Hypothesis>& poses, Proposals& result) {
+    for (const Hypothesis& hypothesis : poses) result.poses.push_back({hypothesis.pose, MatchMethod::kh});
+}
+
+}  // namespace
+
+Proposals poses_by_curvature_points_at(const PreparedModel& original, const PreparedModel& suspect,
+                                       std::span<const double> scales, const CurvaturePointMatching& options,
+                                       const Progress& progress) {
+    const CurvaturePointSearch search(original, suspect, options);
+    Proposals result = first_words(search);
+    if (search.seeds().empty() || search.faces() == 0) return result;
+    std::vector<Hypothesis> all;
+    for (const double scale : scales) {
+        std::vector<Hypothesis> poses = search.poses(scale, 0.0, most_proposals, progress);
         if (poses.empty() || poses.front().votes < enough_votes) {
-            const std::vector<Hypothesis> more = search.poses(1.0, loose, most_proposals, progress);
+            const std::vector<Hypothesis> more = search.poses(scale, loose, most_proposals, progress);
             poses.insert(poses.end(), more.begin(), more.end());
-            std::stable_sort(poses.begin(), poses.end(), better);
         }
-        hand_on(poses);
-        if (result.poses.empty()) result.why += " have no counterpart on the original";
-        return result;
+        all.insert(all.end(), poses.begin(), poses.end());
     }
+    std::stable_sort(all.begin(), all.end(), better);
+    hand_on(all, result);
+    if (result.poses.empty()) result.why += " have no counterpart on the original";
+    return result;
+}
+
+Proposals poses_by_curvature_points(const PreparedModel& original, const PreparedModel& suspect,
+                                    const CurvaturePointMatching& options, const Progress& progress) {
+    if (options.scale.kind == ScaleChoice::Kind::fixed) {
+        const double one = 1.0;
+        return poses_by_curvature_points_at(original, suspect, {&one, 1}, options, progress);
+    }
+    const CurvaturePointSearch search(original, suspect, options);
+    Proposals result = first_words(search);
+    if (search.seeds().empty() || search.faces() == 0) return result;
 
     double low = options.scale.low, high = options.scale.high;
     if (options.scale.kind == ScaleChoice::Kind::automatic) {
@@ -366,7 +390,7 @@ Proposals poses_by_curvature_points(const PreparedModel& original, const Prepare
                                                               : golden_section_minimum(objective, a, b, scale_accuracy);
         });
     for (const Minimum& minimum : minima)
-        hand_on(search.poses(std::exp(minimum.at), 0.0, most_proposals / most_minima, progress));
+        hand_on(search.poses(std::exp(minimum.at), 0.0, most_proposals / most_minima, progress), result);
     result.why += ", scale searched in " + number(low) + ":" + number(high) + " by " +
                   (options.scale_search == ScaleSearch::brent ? "Brent's method" : "the golden section") + ", " +
                   std::to_string(evaluated) + " times";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <umbilic/core/progress.h>
@@ -42,5 +43,10 @@ struct CurvaturePointMatching {
 /// scanned and its lowest minima are searched by the golden section or Brent's method. Throws Cancelled.
 Proposals poses_by_curvature_points(const PreparedModel& original, const PreparedModel& suspect,
                                     const CurvaturePointMatching& options, const Progress& progress = {});
+
+/// The same at the given scales, each taken for known.
+Proposals poses_by_curvature_points_at(const PreparedModel& original, const PreparedModel& suspect,
+                                       std::span<const double> scales, const CurvaturePointMatching& options,
+                                       const Progress& progress = {});
 
 }  // namespace umbilic

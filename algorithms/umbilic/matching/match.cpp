@@ -12,6 +12,7 @@
 #include <umbilic/matching/by_given_pairs.h>
 #include <umbilic/matching/by_moments.h>
 #include <umbilic/matching/by_principal_frame.h>
+#include <umbilic/matching/by_umbilic_lines.h>
 #include <umbilic/matching/by_umbilics.h>
 #include <umbilic/matching/copies.h>
 #include <umbilic/matching/decision.h>
@@ -150,6 +151,14 @@ Alignment match(const PreparedModel& original, const PreparedModel& suspect, con
         consider(poses_by_umbilics(original, suspect, options.scale, options.mirror,
                                    options.umbilic_invariant_tolerance, progress.part(0.1, 0.3)),
                  refined_poses, umbilics_error, progress.part(0.3, 0.5));
+    if (options.method == MethodChoice::umbilic_lines && wanted(options.method))
+        consider(poses_by_umbilic_lines(original, suspect, options.scale, options.mirror,
+                                        options.umbilic_invariant_tolerance, progress.part(0.1, 0.3)),
+                 refined_poses, umbilics_error, progress.part(0.3, 0.5));
+    if (options.method == MethodChoice::umbilic_kh && wanted(options.method))
+        consider(poses_by_umbilic_scale(original, suspect, options.scale, options.mirror,
+                                        options.umbilic_invariant_tolerance, progress.part(0.1, 0.7)),
+                 refined_poses, kh_error, progress.part(0.7, 0.9));
     // Moments belong to wholes: they say nothing of a piece.
     if (wanted(MethodChoice::moments) &&
         (options.scope != ScopeChoice::partial || options.method == MethodChoice::moments))

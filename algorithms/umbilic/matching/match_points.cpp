@@ -319,12 +319,12 @@ private:
 };
 
 void check_method(const MatchOptions& options) {
-    if (options.method == MethodChoice::umbilics || options.method == MethodChoice::moments ||
+    if (options.method == MethodChoice::umbilics || options.method == MethodChoice::umbilic_lines ||
+        options.method == MethodChoice::umbilic_kh || options.method == MethodChoice::moments ||
         options.method == MethodChoice::analytic)
         throw Unsupported(
             "match: points have neither umbilics nor moments nor analytic faces of their own; use --method auto, or "
-            "fit a surface first "
-            "(umbilic fit)");
+            "fit a surface first (umbilic fit)");
 }
 
 Alignment global_only(Alignment alignment, const MatchOptions& options) {
