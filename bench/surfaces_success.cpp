@@ -23,7 +23,11 @@
 #include <umbilic/core/errors.h>
 #include <umbilic/matching/match.h>
 
+#include "free_form.h"
+#include "measurements.h"
+
 using namespace umbilic;
+using namespace umbilic::bench;
 
 namespace {
 
@@ -60,17 +64,6 @@ struct Cell {
     std::vector<double> errors, prepare_seconds, match_seconds;
 };
 
-double median(std::vector<double> values) {
-    if (values.empty()) return 0.0;
-    std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-    return values[values.size() / 2];
-}
-
-/// Processor time: other work on the machine does not count.
-double seconds_since(std::clock_t start) {
-    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-}
-
 std::unique_ptr<Original> original_of(const std::string& name, Model model) {
     auto original = std::make_unique<Original>(Original{name, std::move(model), nullptr});
     original->prepared = std::make_unique<PreparedModel>(prepare(original->model));
@@ -90,18 +83,11 @@ ParameterBox part_of(const ParameterBox& domain, double share, std::mt19937_64& 
     return {part(domain.u, u_share), part(domain.v, v_share)};
 }
 
-/// The largest face's surface, of which pieces are cut.
-const NurbsSurface& main_surface(const Model& model) {
-    return std::max_element(model.faces.begin(), model.faces.end(),
-                            [](const Face& a, const Face& b) { return a.area < b.area; })
-        ->surface;
-}
-
 Trial make_trial(const Original& original, const Original& other, const Row& row, double coverage, unsigned seed) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
     const auto cut = [&](const Original& from) {
-        const NurbsSurface& surface = main_surface(from.model);
+        const NurbsSurface& surface = largest_surface(from.model);
         NurbsSurface piece =
             coverage < 1.0 ? support::restricted(surface, part_of(surface.domain(), coverage, random)) : surface;
         if (row.reapproximation > 0.0)
