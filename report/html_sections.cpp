@@ -9,6 +9,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <report/given_pairs_text.h>
 #include <report/parameters.h>
 #include <report/readable.h>
 #include <report/versions.h>

@@ -255,6 +255,7 @@ def compare(
                       the thesis's "umbilics-lines", "umbilics-kh" and "kh"
     scale             "auto", "fixed" (it is 1) or (low, high)
     scale_search      "golden" (section) or "brent": how "kh" searches a scale that is not fixed
+    kh_solver         "direct", or the thesis's "auxiliary" or "approximated": how "kh" and "umbilics-kh" find points
     mirror            "auto" or "never"
     scope             "auto", "global" or "partial"
     initial           dict with scale, rotation, translation, mirrored: a pose to start from

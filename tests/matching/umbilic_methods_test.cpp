@@ -125,7 +125,7 @@ TEST(UmbilicMethods, UmbilicsOfQuadricsAndFlatOnesAreBeyondTheThesis) {
         const PreparedModel original = prepare(original_model, quick()), suspect = prepare(suspect_model, quick());
         ASSERT_EQ(umbilic_marks(original_model, original.features).size(), 1u);
         EXPECT_TRUE(poses_by_umbilic_lines(original, suspect, {}, MirrorChoice::automatic, 0.15).poses.empty());
-        EXPECT_TRUE(poses_by_umbilic_scale(original, suspect, {}, MirrorChoice::automatic, 0.15).poses.empty());
+        EXPECT_TRUE(poses_by_umbilic_scale(original, suspect, {}, 0.15).poses.empty());
         const Proposals ours = poses_by_umbilics(original, suspect, {}, MirrorChoice::automatic, 0.15);
         double least = 1.0;
         for (const PoseHypothesis& pose : ours.poses)

@@ -13,18 +13,7 @@ namespace umbilic {
 /// compatible: it fits, but there is too little evidence; not_found: nothing fits.
 enum class AlignmentStatus { found, ambiguous, compatible, not_found };
 
-enum class MatchMethod {
-    none,
-    given,
-    analytic,
-    umbilics,
-    umbilic_lines,
-    umbilic_kh,
-    moments,
-    curvature,
-    kh,
-    points
-};
+enum class MatchMethod { none, given, analytic, umbilics, umbilic_lines, umbilic_kh, moments, curvature, kh, points };
 
 /// global: suspect and original as wholes; partial: the suspect is (or contains) a part of the original.
 enum class MatchScope { global, partial };

@@ -10,7 +10,6 @@
 #include <Eigen/Geometry>
 
 #include <umbilic/core/errors.h>
-#include <umbilic/matching/by_curvature_points.h>
 #include <umbilic/matching/horn.h>
 #include <umbilic/matching/pose_distance.h>
 
@@ -171,9 +170,10 @@ Proposals poses_by_umbilic_lines(const PreparedModel& original, const PreparedMo
     return result;
 }
 
-Proposals poses_by_umbilic_scale(const PreparedModel& original, const PreparedModel& suspect, const ScaleChoice& scale,
-                                 MirrorChoice mirror, double omega_tolerance, const Progress& progress) {
-    const Correspondence found = correspond(original, suspect, scale, mirror, omega_tolerance);
+Proposals poses_by_umbilic_scale(const PreparedModel& original, const PreparedModel& suspect,
+                                 const CurvaturePointMatching& options, double omega_tolerance,
+                                 const Progress& progress) {
+    const Correspondence found = correspond(original, suspect, options.scale, options.mirror, omega_tolerance);
     std::vector<OmegaPair> pairs;
     for (const std::vector<OmegaPair>& of_reading : found.pairs)
         pairs.insert(pairs.end(), of_reading.begin(), of_reading.end());
@@ -189,8 +189,7 @@ Proposals poses_by_umbilic_scale(const PreparedModel& original, const PreparedMo
     }
     Proposals result{.why = "scale by umbilics: " + found.why};
     if (scales.empty()) return result;
-    Proposals by_curvature =
-        poses_by_curvature_points_at(original, suspect, scales, {.scale = scale, .mirror = mirror}, progress);
+    const Proposals by_curvature = poses_by_curvature_points_at(original, suspect, scales, options, progress);
     result.why += "; " + by_curvature.why;
     for (const PoseHypothesis& pose : by_curvature.poses)
         result.poses.push_back({pose.original_suspect, MatchMethod::umbilic_kh});

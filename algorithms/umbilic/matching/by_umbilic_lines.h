@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <umbilic/core/progress.h>
+#include <umbilic/matching/by_curvature_points.h>
 #include <umbilic/matching/choices.h>
 #include <umbilic/matching/pose_hypothesis.h>
 #include <umbilic/matching/prepared_model.h>
@@ -36,7 +37,8 @@ Proposals poses_by_umbilic_lines(const PreparedModel& original, const PreparedMo
 
 /// Method 2 of the thesis (4.7.1): the same scales, and at each of the most promising ones the KH method. Throws
 /// Cancelled.
-Proposals poses_by_umbilic_scale(const PreparedModel& original, const PreparedModel& suspect, const ScaleChoice& scale,
-                                 MirrorChoice mirror, double omega_tolerance, const Progress& progress = {});
+Proposals poses_by_umbilic_scale(const PreparedModel& original, const PreparedModel& suspect,
+                                 const CurvaturePointMatching& options, double omega_tolerance,
+                                 const Progress& progress = {});
 
 }  // namespace umbilic

@@ -96,7 +96,8 @@ Proposals kh_poses(const PreparedModel& original, const PreparedModel& suspect, 
                    bool swapped, const Progress& progress) {
     const CurvaturePointMatching matching{.scale = swapped ? options.scale.inverse() : options.scale,
                                           .scale_search = options.scale_search,
-                                          .mirror = options.mirror};
+                                          .mirror = options.mirror,
+                                          .solver = options.curvature_solver};
     if (!swapped) return poses_by_curvature_points(original, suspect, matching, progress);
     Proposals result = poses_by_curvature_points(suspect, original, matching, progress);
     for (PoseHypothesis& pose : result.poses) pose.original_suspect = pose.original_suspect.inverse();
@@ -156,8 +157,10 @@ Alignment match(const PreparedModel& original, const PreparedModel& suspect, con
                                         options.umbilic_invariant_tolerance, progress.part(0.1, 0.3)),
                  refined_poses, umbilics_error, progress.part(0.3, 0.5));
     if (options.method == MethodChoice::umbilic_kh && wanted(options.method))
-        consider(poses_by_umbilic_scale(original, suspect, options.scale, options.mirror,
-                                        options.umbilic_invariant_tolerance, progress.part(0.1, 0.7)),
+        consider(poses_by_umbilic_scale(
+                     original, suspect,
+                     {.scale = options.scale, .mirror = options.mirror, .solver = options.curvature_solver},
+                     options.umbilic_invariant_tolerance, progress.part(0.1, 0.7)),
                  refined_poses, kh_error, progress.part(0.7, 0.9));
     // Moments belong to wholes: they say nothing of a piece.
     if (wanted(MethodChoice::moments) &&

@@ -17,6 +17,8 @@ struct MatchOptions {
     ScaleChoice scale;
     /// Of the method kh, where the scale is not fixed.
     ScaleSearch scale_search = ScaleSearch::golden_section;
+    /// Of the methods kh and umbilic_kh.
+    CurvatureSolver curvature_solver = CurvatureSolver::direct;
     MirrorChoice mirror = MirrorChoice::automatic;
     ScopeChoice scope = ScopeChoice::automatic;
     /// Pose to start from (--initial): it is refined and takes part as a hypothesis.
