@@ -119,7 +119,7 @@ int main(int count, char** words) {
                             Cell& cell = cells[m];
                             cell.seconds.push_back(seconds_since(start));
                             ++cell.cases;
-                            const double error = fit_error(original, suspect, alignment.original_suspect).relative_max;
+                            const double error = relative_maximum_error(original, suspect, alignment.original_suspect);
                             const double scale = alignment.original_suspect.scale / truth.scale;
                             const bool success = alignment.found() && error < 0.01 && std::abs(scale - 1) < 0.02;
                             cell.success += success;

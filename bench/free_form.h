@@ -15,28 +15,14 @@ inline const NurbsSurface& largest_surface(const Model& model) {
         ->surface;
 }
 
-/// How far a moved suspect is from an original.
-struct FitError {
-    double mean = 0.0;  ///< of the samples' distances from the original, mm: the thesis's objective (4.4)
-    /// Largest of them / sqrt(area of the original): the thesis's relative maximum error. Symmetric designs have
-    /// several right poses, so that distances from the original say more than displacements from the planted pose.
-    double relative_max = 0.0;
-};
-
-inline FitError fit_error(const PreparedModel& original, const PreparedModel& suspect,
-                          const SimilarityTransform& pose) {
+/// Largest distance of the moved suspect's samples from the original / sqrt(area of the original), the thesis's
+/// relative maximum error. Symmetric designs have several right poses, so that distances from the original say more
+/// than displacements from the planted pose.
+inline double relative_maximum_error(const PreparedModel& original, const PreparedModel& suspect,
+                                     const SimilarityTransform& pose) {
     const double size = original.model.size();
-    FitError error;
-    double weight = 0.0;
     const std::vector<double> distances = sample_distances(Ground(original), suspect, pose, size);
-    for (std::size_t i = 0; i < distances.size(); ++i) {
-        const double distance = std::min(distances[i], size);
-        error.mean += suspect.features.samples[i].weight * distance;
-        weight += suspect.features.samples[i].weight;
-        error.relative_max = std::max(error.relative_max, distance / size);
-    }
-    error.mean /= weight;
-    return error;
+    return *std::max_element(distances.begin(), distances.end()) / size;
 }
 
 }  // namespace umbilic::bench

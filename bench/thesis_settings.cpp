@@ -61,8 +61,20 @@ Method matched(const std::string& name, const MatchOptions& options) {
 
 using Propose = std::function<Proposals(const PreparedModel&, const PreparedModel&)>;
 
-/// Poses whose objective is evaluated: the first, most promising ones.
+/// Poses whose objective is evaluated, the first, most promising ones, and points for it.
 constexpr std::size_t most_evaluated = 50;
+constexpr int objective_points = 200;
+
+/// Mean distance of the moved suspect from the original, mm (thesis (4.4)).
+double objective(const PreparedModel& original, const PreparedModel& suspect, const SimilarityTransform& pose) {
+    const Ground ground(original);
+    double sum = 0.0;
+    for (const int i : spread_samples(suspect.features.samples, objective_points)) {
+        const auto foot = ground.foot(pose.apply(suspect.features.samples[i].curvature.point), original.model.size());
+        sum += foot ? foot->distance : original.model.size();
+    }
+    return sum / objective_points;
+}
 
 Method unrefined(const std::string& name, const Propose& propose) {
     return {name + ", unrefined", [=](const PreparedModel& original, const PreparedModel& suspect) {
@@ -70,9 +82,9 @@ Method unrefined(const std::string& name, const Propose& propose) {
                 std::optional<SimilarityTransform> best;
                 double least = INFINITY;
                 for (std::size_t k = 0; k < std::min(poses.size(), most_evaluated); ++k) {
-                    const double mean = fit_error(original, suspect, poses[k].original_suspect).mean;
-                    if (mean < least) {
-                        least = mean;
+                    const double value = objective(original, suspect, poses[k].original_suspect);
+                    if (value < least) {
+                        least = value;
                         best = poses[k].original_suspect;
                     }
                 }
@@ -243,7 +255,7 @@ void run(const std::string& only) {
             std::printf("| %s | %s | %s | ", first ? setting.name.c_str() : "", first ? setting.thesis.c_str() : "",
                         method.name.c_str());
             if (pose)
-                std::printf("%.1e | %.1e", fit_error(original, suspect, *pose).relative_max,
+                std::printf("%.1e | %.1e", relative_maximum_error(original, suspect, *pose),
                             std::abs(pose->scale / setting.scale - 1.0));
             else
                 std::printf("– | –");

@@ -26,6 +26,7 @@ constexpr double rotation_tolerance = 1e-4;
 
 std::string read_text(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
+    if (file.is_open() && file.peek() == std::ifstream::traits_type::eof() && !file.bad()) return {};
     std::ostringstream text;
     text << file.rdbuf();
     if (!file || !text) throw InvalidInput(path + ": cannot be read; check its name and that it may be read");
