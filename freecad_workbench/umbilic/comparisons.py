@@ -64,6 +64,8 @@ class Alignment:
     max: Optional[float]
     relative_max: Optional[float]
     """`max` / sqrt(area of the original)."""
+    pairs: List[Dict[str, Any]]
+    """Given pairs of points in their order: dicts with "residual" (mm of the original) and "outlier"."""
     free_motions: List[Dict[str, Any]]
     """What the pose leaves open: dicts with "kind" ("turn", "slide", "slide_in_plane", "turn_about_point", "screw",
     "size" or "spiral"), "point" (mm of the original), "direction" (or None) and, of screws and spirals, "pitch"."""
@@ -77,7 +79,7 @@ class Alignment:
             for name in ("rotation", "translation")
         }
         return Alignment(**{name: entry.get(name) for name in names}, **arrays,
-                         free_motions=entry.get("free_motions") or [])
+                         pairs=entry.get("pairs") or [], free_motions=entry.get("free_motions") or [])
 
     def matrix(self) -> np.ndarray:
         """The homogeneous matrix (4, 4) of the map from suspect to original. Raises ValueError without a pose."""
