@@ -22,11 +22,13 @@
 #include <occ_adapter/read_file.h>
 #include <support/reparametrisation.h>
 #include <support/surfaces.h>
-#include <umbilic/core/errors.h>
 #include <umbilic/matching/match.h>
-#include <umbilic/matching/score.h>
+
+#include "free_form.h"
+#include "measurements.h"
 
 using namespace umbilic;
+using namespace umbilic::bench;
 
 namespace {
 
@@ -56,34 +58,14 @@ std::vector<Method> methods() {
     };
 }
 
-/// The largest B-spline face of a model's file.
 Design design_of(const char* name, const char* file) {
-    const Model model = read_file(std::string(UMBILIC_MODELS_DIR) + "/" + file).model;
-    const Face* largest = nullptr;
-    for (const Face& face : model.faces)
-        if (!elementary(face.kind) && (!largest || face.area > largest->area)) largest = &face;
-    if (!largest) throw InvalidInput(std::string(file) + " has no B-spline face");
-    return {name, largest->surface};
-}
-
-double median(std::vector<double> values) {
-    if (values.empty()) return 0.0;
-    std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-    return values[values.size() / 2];
+    return {name, largest_surface(read_file(std::string(UMBILIC_MODELS_DIR) + "/" + file).model)};
 }
 
 struct Cell {
     int cases = 0, success = 0, wrong = 0;
     std::vector<double> seconds, errors;
 };
-
-/// Largest distance of the suspect, moved by the pose found, from the original / sqrt(area): symmetric designs have
-/// several right poses.
-double pose_error(const PreparedModel& original, const PreparedModel& suspect, const SimilarityTransform& found) {
-    const Ground ground(original);
-    const std::vector<double> distances = sample_distances(ground, suspect, found, original.model.size());
-    return *std::max_element(distances.begin(), distances.end()) / original.model.size();
-}
 
 }  // namespace
 
@@ -135,9 +117,9 @@ int main(int count, char** words) {
                             const std::clock_t start = std::clock();
                             const Alignment alignment = match(original, suspect, method.options);
                             Cell& cell = cells[m];
-                            cell.seconds.push_back(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+                            cell.seconds.push_back(seconds_since(start));
                             ++cell.cases;
-                            const double error = pose_error(original, suspect, alignment.original_suspect);
+                            const double error = relative_maximum_error(original, suspect, alignment.original_suspect);
                             const double scale = alignment.original_suspect.scale / truth.scale;
                             const bool success = alignment.found() && error < 0.01 && std::abs(scale - 1) < 0.02;
                             cell.success += success;

@@ -27,6 +27,7 @@
 #include <umbilic/matching/match.h>
 #include <umbilic/matching/pose_distance.h>
 
+#include "measurements.h"
 #include "mechanical_parts.h"
 
 using namespace umbilic;
@@ -157,10 +158,6 @@ struct Cell {
     }
 };
 
-double seconds_since(std::clock_t start) {
-    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-}
-
 Cell run_cell(const std::vector<Original>& originals, std::size_t which, double coverage, const Arguments& arguments) {
     Cell cell;
     const Original& original = originals[which];
@@ -209,13 +206,11 @@ Cell run_cell(const std::vector<Original>& originals, std::size_t which, double 
 }
 
 void print(const std::string& name, double coverage, const Cell& cell) {
-    std::vector<double> seconds = cell.seconds;
-    std::sort(seconds.begin(), seconds.end());
     const auto percent = [](int part, int all) { return all == 0 ? 0.0 : 100.0 * part / all; };
     std::printf("%-18s %4.0f%% %5d %9.1f %8.1f %6d %7.1f %7d %8d of %-4d %8.3f %8.3f\n", name.c_str(), 100 * coverage,
                 cell.determined, percent(cell.success, cell.determined), percent(cell.found, cell.determined),
                 cell.undetermined, percent(cell.named, cell.undetermined), cell.false_found, cell.false_negatives,
-                cell.negatives, seconds[seconds.size() / 2], seconds.back());
+                cell.negatives, median(cell.seconds), *std::max_element(cell.seconds.begin(), cell.seconds.end()));
     std::fflush(stdout);
 }
 

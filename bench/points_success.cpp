@@ -22,6 +22,7 @@
 #include <umbilic/core/errors.h>
 #include <umbilic/matching/match_points.h>
 
+#include "measurements.h"
 #include "point_trials.h"
 
 using namespace umbilic;
@@ -52,17 +53,6 @@ struct Cell {
     std::vector<int> per_shape;
     std::vector<double> errors, prepare_seconds, match_seconds;
 };
-
-double median(std::vector<double> values) {
-    if (values.empty()) return 0.0;
-    std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-    return values[values.size() / 2];
-}
-
-/// Processor time: other work on the machine does not count.
-double seconds_since(std::clock_t start) {
-    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-}
 
 void write_trial(const std::string& folder, const PointOriginal& original, const PointTrial& trial, const Row& row,
                  double coverage, int number) {

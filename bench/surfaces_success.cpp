@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Success matrix of matching free-form surfaces: pieces of designs, exact, re-approximated, mirrored or among foreign
 // material, in unknown places, sizes (1/20 ... 20) and hands.
-// surfaces_success [--cases N] [--only TEXT] [--method auto|umbilics|curvature]
+// surfaces_success [--cases N] [--only TEXT] [--method auto|umbilics|umbilics-lines|umbilics-kh|curvature]
 //   --cases N     cases a cell (default 51, shared among the shapes)
 //   --only TEXT   rows whose name contains TEXT
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <map>
 #include <memory>
 #include <random>
 #include <string>
@@ -23,7 +24,11 @@
 #include <umbilic/core/errors.h>
 #include <umbilic/matching/match.h>
 
+#include "free_form.h"
+#include "measurements.h"
+
 using namespace umbilic;
+using namespace umbilic::bench;
 
 namespace {
 
@@ -60,17 +65,6 @@ struct Cell {
     std::vector<double> errors, prepare_seconds, match_seconds;
 };
 
-double median(std::vector<double> values) {
-    if (values.empty()) return 0.0;
-    std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-    return values[values.size() / 2];
-}
-
-/// Processor time: other work on the machine does not count.
-double seconds_since(std::clock_t start) {
-    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-}
-
 std::unique_ptr<Original> original_of(const std::string& name, Model model) {
     auto original = std::make_unique<Original>(Original{name, std::move(model), nullptr});
     original->prepared = std::make_unique<PreparedModel>(prepare(original->model));
@@ -90,18 +84,11 @@ ParameterBox part_of(const ParameterBox& domain, double share, std::mt19937_64& 
     return {part(domain.u, u_share), part(domain.v, v_share)};
 }
 
-/// The largest face's surface, of which pieces are cut.
-const NurbsSurface& main_surface(const Model& model) {
-    return std::max_element(model.faces.begin(), model.faces.end(),
-                            [](const Face& a, const Face& b) { return a.area < b.area; })
-        ->surface;
-}
-
 Trial make_trial(const Original& original, const Original& other, const Row& row, double coverage, unsigned seed) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
     const auto cut = [&](const Original& from) {
-        const NurbsSurface& surface = main_surface(from.model);
+        const NurbsSurface& surface = largest_surface(from.model);
         NurbsSurface piece =
             coverage < 1.0 ? support::restricted(surface, part_of(surface.domain(), coverage, random)) : surface;
         if (row.reapproximation > 0.0)
@@ -207,6 +194,11 @@ void run(int cases, const std::string& only, const MatchOptions& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    const std::map<std::string, MethodChoice> methods = {{"auto", MethodChoice::automatic},
+                                                         {"umbilics", MethodChoice::umbilics},
+                                                         {"umbilics-lines", MethodChoice::umbilic_lines},
+                                                         {"umbilics-kh", MethodChoice::umbilic_kh},
+                                                         {"curvature", MethodChoice::curvature}};
     int cases = 51;
     std::string only;
     MatchOptions options;
@@ -216,10 +208,8 @@ int main(int argc, char** argv) {
             cases = std::atoi(value.c_str());
         } else if (word == "--only" && !value.empty()) {
             only = value;
-        } else if (word == "--method" && (value == "auto" || value == "umbilics" || value == "curvature")) {
-            options.method = value == "auto"       ? MethodChoice::automatic
-                             : value == "umbilics" ? MethodChoice::umbilics
-                                                   : MethodChoice::curvature;
+        } else if (word == "--method" && methods.count(value)) {
+            options.method = methods.at(value);
         } else {
             std::fprintf(stderr, "surfaces_success: '%s %s' is not understood\n", word.c_str(), value.c_str());
             return 2;

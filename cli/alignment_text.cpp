@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include <report/given_pairs_text.h>
 #include <report/readable.h>
 
 namespace umbilic {
@@ -15,6 +16,7 @@ std::vector<std::pair<std::string, std::string>> alignment_facts(const Alignment
     };
     std::vector<std::pair<std::string, std::string>> lines = {{"Alignment", name(alignment.status)},
                                                               {"", alignment.why}};
+    if (!alignment.given_pairs.empty()) lines.emplace_back("  pairs", given_pairs_text(alignment.given_pairs));
     if (alignment.status == AlignmentStatus::not_found) return lines;
     const SimilarityTransform& pose = alignment.original_suspect;
     const Eigen::AngleAxisd turn(pose.rotation);

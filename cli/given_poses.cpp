@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cli/given_poses.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <fstream>
 #include <optional>
 #include <sstream>
+#include <string_view>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <nlohmann/json.hpp>
 
 #include <umbilic/core/errors.h>
+#include <umbilic/matching/horn.h>
 
 namespace umbilic {
 
@@ -23,6 +26,7 @@ constexpr double rotation_tolerance = 1e-4;
 
 std::string read_text(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
+    if (file.is_open() && file.peek() == std::ifstream::traits_type::eof() && !file.bad()) return {};
     std::ostringstream text;
     text << file.rdbuf();
     if (!file || !text) throw InvalidInput(path + ": cannot be read; check its name and that it may be read");
@@ -38,22 +42,38 @@ Matrix3 orthonormalized(const Matrix3& matrix) {
     return result;
 }
 
-/// The six numbers of a line, if it holds just these.
-std::optional<std::array<double, 6>> six_numbers(std::string_view line) {
-    std::array<double, 6> numbers{};
-    std::size_t count = 0;
+std::vector<std::string_view> words_of(std::string_view line) {
+    constexpr const char* separators = " \t\r,;";
+    std::vector<std::string_view> words;
     while (true) {
-        const auto start = line.find_first_not_of(" \t\r,;");
-        if (start == std::string_view::npos) break;
+        const auto start = line.find_first_not_of(separators);
+        if (start == std::string_view::npos) return words;
         line.remove_prefix(start);
-        const auto word = line.substr(0, line.find_first_of(" \t\r,;"));
-        double value = 0.0;
-        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-        if (count == 6 || error != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) return {};
-        numbers[count++] = value;
-        line.remove_prefix(word.size());
+        words.push_back(line.substr(0, line.find_first_of(separators)));
+        line.remove_prefix(words.back().size());
     }
-    return count == 6 ? std::optional(numbers) : std::nullopt;
+}
+
+/// The number a word stands for, finite or not.
+std::optional<double> number_of(std::string_view word) {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    return error == std::errc() && end == word.data() + word.size() ? std::optional(value) : std::nullopt;
+}
+
+/// The six numbers of a line. `where` names it in errors.
+std::array<double, 6> six_numbers(const std::vector<std::string_view>& words, const std::string& where) {
+    constexpr const char* expected = "; write x, y, z on the original, then x, y, z on the suspect";
+    if (words.size() != 6)
+        throw InvalidInput(where + " holds " + std::to_string(words.size()) + " values instead of six" + expected);
+    std::array<double, 6> numbers{};
+    for (std::size_t k = 0; k < 6; ++k) {
+        const auto value = number_of(words[k]);
+        if (!value || !std::isfinite(*value))
+            throw InvalidInput(where + ": '" + std::string(words[k]) + "' is no finite number" + expected);
+        numbers[k] = *value;
+    }
+    return numbers;
 }
 
 }  // namespace
@@ -94,23 +114,25 @@ std::vector<std::pair<Vector3, Vector3>> read_point_pairs(const std::string& pat
     std::vector<std::pair<Vector3, Vector3>> pairs;
     bool heading_allowed = true;
     int number = 0;
+    const auto where = [&] { return path + ": line " + std::to_string(number); };
     for (std::string line; std::getline(lines, line);) {
         ++number;
-        const auto start = line.find_first_not_of(" \t\r");
-        if (start == std::string::npos || line[start] == '#') continue;
-        const auto numbers = six_numbers(line);
-        if (!numbers && !heading_allowed) {
-            throw InvalidInput(
-                path + ": line " + std::to_string(number) +
-                " does not hold six numbers; write x, y, z on the original, then x, y, z on the suspect");
-        }
+        const auto words = words_of(line);
+        if (words.empty() || words.front().front() == '#') continue;
+        const bool heading =
+            heading_allowed && std::none_of(words.begin(), words.end(), [](auto word) { return number_of(word); });
         heading_allowed = false;
-        if (!numbers) continue;
-        const auto& n = *numbers;
+        if (heading) continue;
+        const auto n = six_numbers(words, where());
         pairs.emplace_back(Vector3(n[0], n[1], n[2]), Vector3(n[3], n[4], n[5]));
     }
-    if (pairs.empty()) {
-        throw InvalidInput(path + ": holds no pair of points; write six numbers a line");
+    if (pairs.empty()) throw InvalidInput(path + ": holds no pair of points; write six numbers a line");
+    std::vector<PointPair> points;
+    for (const auto& [original, suspect] : pairs) points.push_back({original, suspect});
+    try {
+        check_pairs(points);
+    } catch (const InvalidInput& error) {
+        throw InvalidInput(where() + ", the last one: " + error.what());
     }
     return pairs;
 }

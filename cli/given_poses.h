@@ -15,8 +15,9 @@ namespace umbilic {
 SimilarityTransform read_transform(const std::string& path);
 
 /// Reads corresponding points, mm: six numbers a line, three on the original, three on the suspect, parted by commas,
-/// semicolons or blanks. Empty lines, lines that start with # and one heading are passed over. Throws InvalidInput,
-/// naming file and line.
+/// semicolons or blanks. Empty lines, lines that start with # and one heading, which holds no number, are passed over.
+/// Throws InvalidInput, naming file and line, if a line holds anything else, if there are fewer than three pairs, or if
+/// the points of either side lie on a line.
 std::vector<std::pair<Vector3, Vector3>> read_point_pairs(const std::string& path);
 
 }  // namespace umbilic

@@ -48,15 +48,19 @@ void add_match_options(CLI::App& subcommand, MatchWords& words) {
     const char* const group = "Pose";
     subcommand
         .add_option("--method", words.options.match.method,
-                    "How poses are proposed: auto, analytic, umbilics, moments, curvature, kh or points")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, MethodChoice>{{"auto", MethodChoice::automatic},
-                                                                                {"analytic", MethodChoice::analytic},
-                                                                                {"umbilics", MethodChoice::umbilics},
-                                                                                {"moments", MethodChoice::moments},
-                                                                                {"curvature", MethodChoice::curvature},
-                                                                                {"kh", MethodChoice::kh},
-                                                                                {"points", MethodChoice::points}})
-                        .description(""))
+                    "How poses are proposed: auto, analytic, umbilics, umbilics-lines, umbilics-kh, moments, "
+                    "curvature, kh or points")
+        ->transform(
+            CLI::CheckedTransformer(std::map<std::string, MethodChoice>{{"auto", MethodChoice::automatic},
+                                                                        {"analytic", MethodChoice::analytic},
+                                                                        {"umbilics", MethodChoice::umbilics},
+                                                                        {"umbilics-lines", MethodChoice::umbilic_lines},
+                                                                        {"umbilics-kh", MethodChoice::umbilic_kh},
+                                                                        {"moments", MethodChoice::moments},
+                                                                        {"curvature", MethodChoice::curvature},
+                                                                        {"kh", MethodChoice::kh},
+                                                                        {"points", MethodChoice::points}})
+                .description(""))
         ->type_name("METHOD")
         ->group(group);
     subcommand
@@ -72,6 +76,18 @@ void add_match_options(CLI::App& subcommand, MatchWords& words) {
                                                                                {"brent", ScaleSearch::brent}})
                         .description(""))
         ->type_name("SEARCH")
+        ->group(group);
+    subcommand
+        .add_option(
+            "--kh-solver", words.options.match.curvature_solver,
+            "How the methods kh and umbilics-kh find points of given curvatures: direct, or as the thesis does, "
+            "auxiliary (slow) or approximated")
+        ->transform(CLI::CheckedTransformer(
+                        std::map<std::string, CurvatureSolver>{{"direct", CurvatureSolver::direct},
+                                                               {"auxiliary", CurvatureSolver::auxiliary},
+                                                               {"approximated", CurvatureSolver::approximated}})
+                        .description(""))
+        ->type_name("SOLVER")
         ->group(group);
     subcommand.add_option("--mirror", words.options.match.mirror, "Whether mirror images are tried: auto or never")
         ->transform(CLI::CheckedTransformer(std::map<std::string, MirrorChoice>{{"auto", MirrorChoice::automatic},

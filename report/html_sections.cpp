@@ -9,6 +9,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <report/given_pairs_text.h>
 #include <report/parameters.h>
 #include <report/readable.h>
 #include <report/versions.h>
@@ -195,6 +196,7 @@ void set_alignment(const Alignment& alignment, PageData& page) {
     };
     row("Status", name(alignment.status));
     row("How", alignment.why);
+    if (!alignment.given_pairs.empty()) row("Pairs of points", given_pairs_text(alignment.given_pairs));
     PageData matrix{PageData::type::list};
     if (alignment.status != AlignmentStatus::not_found) {
         row("Method", name(alignment.method));

@@ -174,6 +174,9 @@ Json alignment_json(const Alignment& alignment) {
         if (motion.pitch != 0.0) entry["pitch"] = number_json(motion.pitch);
         json["free_motions"].push_back(std::move(entry));
     }
+    json["pairs"] = Json::array();
+    for (const GivenPair& pair : alignment.given_pairs)
+        json["pairs"].push_back({{"residual", number_json(pair.residual)}, {"outlier", pair.outlier}});
     return json;
 }
 

@@ -21,6 +21,10 @@ std::string word(MethodChoice choice) {
             return "analytic";
         case MethodChoice::umbilics:
             return "umbilics";
+        case MethodChoice::umbilic_lines:
+            return "umbilics-lines";
+        case MethodChoice::umbilic_kh:
+            return "umbilics-kh";
         case MethodChoice::moments:
             return "moments";
         case MethodChoice::curvature:
@@ -35,6 +39,18 @@ std::string word(MethodChoice choice) {
 
 std::string word(ScaleSearch choice) {
     return choice == ScaleSearch::brent ? "brent" : "golden";
+}
+
+std::string word(CurvatureSolver choice) {
+    switch (choice) {
+        case CurvatureSolver::direct:
+            return "direct";
+        case CurvatureSolver::auxiliary:
+            return "auxiliary";
+        case CurvatureSolver::approximated:
+            return "approximated";
+    }
+    return "direct";
 }
 
 std::string word(MirrorChoice choice) {
@@ -80,6 +96,9 @@ std::vector<Parameter> match_parameters(const FeatureOptions& features, const Ma
     if (options.method == MethodChoice::kh)
         parameters.push_back(constant("scale_search", word(options.scale_search), word(defaults.scale_search), "",
                                       "how the method kh searches a scale that is not fixed"));
+    if (options.method == MethodChoice::kh || options.method == MethodChoice::umbilic_kh)
+        parameters.push_back(constant("kh_solver", word(options.curvature_solver), word(defaults.curvature_solver), "",
+                                      "how points of given curvatures are found"));
     parameters.push_back(
         constant("mirror", word(options.mirror), word(defaults.mirror), "", "whether mirror images are tried"));
     parameters.push_back(

@@ -109,6 +109,8 @@ CompareOptions comparison_options(const py::dict& keywords) {
                                                            {{"auto", MethodChoice::automatic},
                                                             {"analytic", MethodChoice::analytic},
                                                             {"umbilics", MethodChoice::umbilics},
+                                                            {"umbilics-lines", MethodChoice::umbilic_lines},
+                                                            {"umbilics-kh", MethodChoice::umbilic_kh},
                                                             {"moments", MethodChoice::moments},
                                                             {"curvature", MethodChoice::curvature},
                                                             {"kh", MethodChoice::kh},
@@ -118,6 +120,12 @@ CompareOptions comparison_options(const py::dict& keywords) {
         } else if (name == "scale_search") {
             options.match.scale_search = choice_of<ScaleSearch>(
                 name, value, {{"golden", ScaleSearch::golden_section}, {"brent", ScaleSearch::brent}});
+        } else if (name == "kh_solver") {
+            options.match.curvature_solver =
+                choice_of<CurvatureSolver>(name, value,
+                                           {{"direct", CurvatureSolver::direct},
+                                            {"auxiliary", CurvatureSolver::auxiliary},
+                                            {"approximated", CurvatureSolver::approximated}});
         } else if (name == "mirror") {
             options.match.mirror = choice_of<MirrorChoice>(
                 name, value, {{"auto", MirrorChoice::automatic}, {"never", MirrorChoice::never}});

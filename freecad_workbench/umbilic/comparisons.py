@@ -64,6 +64,8 @@ class Alignment:
     max: Optional[float]
     relative_max: Optional[float]
     """`max` / sqrt(area of the original)."""
+    pairs: List[Dict[str, Any]]
+    """Given pairs of points in their order: dicts with "residual" (mm of the original) and "outlier"."""
     free_motions: List[Dict[str, Any]]
     """What the pose leaves open: dicts with "kind" ("turn", "slide", "slide_in_plane", "turn_about_point", "screw",
     "size" or "spiral"), "point" (mm of the original), "direction" (or None) and, of screws and spirals, "pitch"."""
@@ -77,7 +79,7 @@ class Alignment:
             for name in ("rotation", "translation")
         }
         return Alignment(**{name: entry.get(name) for name in names}, **arrays,
-                         free_motions=entry.get("free_motions") or [])
+                         pairs=entry.get("pairs") or [], free_motions=entry.get("free_motions") or [])
 
     def matrix(self) -> np.ndarray:
         """The homogeneous matrix (4, 4) of the map from suspect to original. Raises ValueError without a pose."""
@@ -251,9 +253,11 @@ def compare(
     Either is what `read` takes; measured points as the original need points as the suspect. `seconds` limits the
     reading of each model. Options, all optional, named as on the command line:
 
-    method            "auto", "analytic", "umbilics", "moments", "curvature" or "kh"; "points" of measured points
+    method            "auto", "analytic", "umbilics", "moments" or "curvature", "points" of measured points, and
+                      the thesis's "umbilics-lines", "umbilics-kh" and "kh"
     scale             "auto", "fixed" (it is 1) or (low, high)
     scale_search      "golden" (section) or "brent": how "kh" searches a scale that is not fixed
+    kh_solver         "direct", or the thesis's "auxiliary" or "approximated": how "kh" and "umbilics-kh" find points
     mirror            "auto" or "never"
     scope             "auto", "global" or "partial"
     initial           dict with scale, rotation, translation, mirrored: a pose to start from

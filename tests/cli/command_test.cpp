@@ -153,11 +153,26 @@ TEST_F(Command, GivenPosesThatAreNoneAreThree) {
         EXPECT_EQ(result.status, 3) << text;
         EXPECT_TRUE(is_one_line(result, "t.json")) << text;
     }
-    for (const char* const text :
-         {"", "x,y,z\n", "1,2,3,4,5,6\n1,2,3,4,5\n", "1,2,3,4,5,6\n1,2,3,4,5,six\n", "1,2,3,4,5,6\n1,2,3,4,5,nan\n"}) {
+    const std::vector<std::pair<std::string, std::string>> pairs = {
+        {"", "no pair"},
+        {"x,y,z\n", "no pair"},
+        {"x,y,z,x,y,z\nx,y,z,x,y,z\n", "line 2"},
+        {"1,2,3,4,5\n", "line 1 holds 5 values"},
+        {"nan,2,3,4,5,6\n", "line 1: 'nan'"},
+        {"1,2,3,4,5,6\n1,2,3,4,5\n", "line 2 holds 5 values"},
+        {"1,2,3,4,5,6\n\n1,2,3,4,5,6,7\n", "line 3 holds 7 values"},
+        {"1,2,3,4,5,6\n1,2,3,4,5,six\n", "line 2: 'six'"},
+        {"1,2,3,4,5,6\n1,2,3,4,inf,6\n", "line 2: 'inf'"},
+        {"x y z x y z\n1 2 3 4 5 6\n1 2 4 4 5 7\n", "line 3, the last one: corresponding points: 2 pairs are too few"},
+        {"0,0,0,0,0,0\n1,0,0,1,0,0\n2,0,0,2,0,1\n",
+         "line 3, the last one: corresponding points: those of the original"},
+        {"0,0,0,0,0,0\n1,0,0,1,0,0\n2,1,0,2,0,0\n",
+         "line 3, the last one: corresponding points: those of the suspect"}};
+    for (const auto& [text, complaint] : pairs) {
         const CommandResult result = run_umbilic({"match", bottle, bottle, "--pairs", make_file("p.csv", text)});
         EXPECT_EQ(result.status, 3) << text;
-        EXPECT_TRUE(is_one_line(result, "p.csv")) << text;
+        EXPECT_TRUE(is_one_line(result, "p.csv: " + complaint) || is_one_line(result, "p.csv: holds " + complaint))
+            << text << result.error;
     }
 }
 
@@ -278,6 +293,28 @@ TEST_F(Command, GivenPosesAreUsed) {
     const json result = json::parse(again.output);
     EXPECT_EQ(result.at("parameters").at("initial").at("origin"), "user");
     EXPECT_EQ(result.at("schema"), "umbilic.match/1");
+}
+
+TEST_F(Command, WrongPairsAreNamed) {
+    // Of the blade and its moved copy: points of the original, carried by the known pose; the fourth is wrong.
+    const CommandResult found =
+        run_umbilic({"match", model_path("blade.step"), model_path("blade.step"), "--json", path("pose.json")});
+    ASSERT_EQ(found.status, 0) << found.error;
+    const std::string pairs = make_file("pairs.csv",
+                                        "original,,,suspect,,\n0,0,0,0,0,0\n10,0,0,10,0,0\n0,10,0,0,10,0\n"
+                                        "0,0,10,5,5,5\n10,10,0,10,10,0\n# a remark\n3,-4,5,3,-4,5\n");
+    const CommandResult again = run_umbilic(
+        {"match", model_path("blade.step"), model_path("blade.step"), "--pairs", pairs, "--json", path("match.json")});
+    ASSERT_EQ(again.status, 0) << again.error;
+    EXPECT_NE(again.output.find("6 given"), std::string::npos) << again.output;
+    EXPECT_NE(again.output.find("number 4 (off by 8.66 mm)"), std::string::npos) << again.output;
+    const json judged = json::parse(read("match.json")).at("alignment").at("pairs");
+    ASSERT_EQ(judged.size(), 6u);
+    for (std::size_t k = 0; k < judged.size(); ++k) {
+        EXPECT_EQ(judged[k].at("outlier"), k == 3) << k;
+        EXPECT_NEAR(judged[k].at("residual"), k == 3 ? std::sqrt(75.0) : 0.0, 1e-9) << k;
+    }
+    EXPECT_TRUE(json::parse(read("pose.json")).at("alignment").at("pairs").empty());
 }
 
 TEST_F(Command, SameResultWhateverTheThreads) {

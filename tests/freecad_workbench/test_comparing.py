@@ -99,12 +99,30 @@ def test_aligned_copy_in_the_report_needs_no_move(comparison, bottle, tmp_path):
         ({"algorithm": 3}, "algorithm"),
         ({"initial": {"rotation": [[1, 0, 0], [0, 1, 0], [0, 0, 2]]}}, "rotation"),
         ({"pairs": [1, 2]}, "pairs"),
+        ({"kh_solver": "fast"}, "kh_solver"),
         ({"tolerence": 0.1}, "tolerence"),
     ],
 )
 def test_wrong_options_are_named(bottle, options, word):
     with pytest.raises(umbilic.InvalidInput, match=word):
         umbilic.compare(bottle, bottle, **options)
+
+
+def test_wrong_pairs_are_named(bottle):
+    points = [(0.0, 0.0, 0.0), (30.0, 0.0, 0.0), (0.0, 40.0, 0.0), (0.0, 0.0, 50.0), (20.0, 20.0, 20.0)]
+    pairs = [(p, p) for p in points]
+    pairs[2] = (points[2], points[4])
+    found = umbilic.match(bottle, bottle, pairs=pairs).alignment
+    assert found.found
+    assert [entry["outlier"] for entry in found.pairs] == [False, False, True, False, False]
+    assert found.pairs[2]["residual"] == pytest.approx(np.sqrt(3.0) * 20.0)
+
+
+@pytest.mark.parametrize("method", ["umbilics-lines", "umbilics-kh", "kh"])
+def test_the_methods_of_the_thesis_can_be_chosen(bottle, method):
+    found = umbilic.match(bottle, bottle, method=method, kh_solver="approximated", scale="fixed").alignment
+    assert found.found
+    assert found.method == method
 
 
 def test_a_users_tolerance_is_used_and_reported(bottle, models):

@@ -124,6 +124,22 @@ TEST(ByCurvaturePoints, WithoutABracketTheSizesGiveOne) {
     EXPECT_LT(pose_error(alignment.original_suspect, truth, original), 1e-8);
 }
 
+TEST(ByCurvaturePoints, TheSolversOfTheThesisFindTheSamePose) {
+    const SimilarityTransform truth = random_similarity(23, 1.0, false);
+    const Model original = model_of({saddle()});
+    const Model suspect = model_of({transformed(support::u_backwards(saddle()).surface, truth.inverse())});
+    const PreparedModel a = prepare(original, quick()), b = prepare(suspect, quick());
+    for (const CurvatureSolver solver :
+         {CurvatureSolver::direct, CurvatureSolver::auxiliary, CurvatureSolver::approximated}) {
+        const Alignment alignment = match(
+            a, b,
+            {.method = MethodChoice::kh, .scale = {.kind = ScaleChoice::Kind::fixed}, .curvature_solver = solver});
+        SCOPED_TRACE(alignment.why);
+        ASSERT_TRUE(alignment.found());
+        EXPECT_LT(pose_error(alignment.original_suspect, truth, original), 1e-9);
+    }
+}
+
 TEST(ByCurvaturePoints, SaysWhyNothingCanBeProposed) {
     const Model torus = model_of({support::full_torus(3.0, 1.0)}), free_form = model_of({saddle()});
     const PreparedModel a = prepare(torus, quick()), b = prepare(free_form, quick());

@@ -96,6 +96,45 @@ Model box(const Vector3& sides, const SimilarityTransform& pose) {
     return model;
 }
 
+/// Closed prism over a regular polygon of n corners on a circle, along z, with its solid, moved; each base is made of n
+/// kites.
+Model prism(int n, double radius, double height, const SimilarityTransform& pose) {
+    const auto corner = [&](double i, double z) {
+        const double angle = 2.0 * std::numbers::pi * i / n;
+        return Vector3(radius * std::cos(angle), radius * std::sin(angle), z);
+    };
+    const auto middle = [&](int i, double z) -> Vector3 { return 0.5 * (corner(i, z) + corner(i + 1, z)); };
+    std::vector<NurbsSurface> faces;
+    const auto add = [&](const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
+        faces.emplace_back(KnotVector::bezier(1), KnotVector::bezier(1),
+                           std::vector<Vector3>{pose.apply(a), pose.apply(b), pose.apply(c), pose.apply(d)});
+    };
+    // The normal r_u x r_v = (c - a) x (b - a) points outwards.
+    for (int k = 0; k < n; ++k) {
+        add(corner(k, 0), corner(k, height), corner(k + 1, 0), corner(k + 1, height));
+        add(Vector3(0, 0, height), middle(k, height), middle(k - 1, height), corner(k, height));
+        add(Vector3::Zero(), middle(k - 1, 0), middle(k, 0), corner(k, 0));
+    }
+    Model model = model_of(std::move(faces));
+    for (Face& face : model.faces) {
+        face.kind = SurfaceKind::plane;
+        face.solid = 0;
+        face.reversed = pose.mirrored;
+    }
+    const double angle = std::numbers::pi / n;
+    const double area = 0.5 * n * radius * radius * std::sin(2.0 * angle);
+    const double across = 0.25 * radius * radius * (1.0 - 2.0 / 3.0 * std::pow(std::sin(angle), 2));
+    const double along = height * height / 12.0;
+    Solid solid;
+    solid.volume = std::pow(pose.scale, 3) * area * height;
+    solid.centroid = pose.apply(Vector3(0, 0, 0.5 * height));
+    solid.inertia = solid.volume * pose.scale * pose.scale * pose.orthogonal() *
+                    Vector3(across + along, across + along, 2.0 * across).asDiagonal() * pose.orthogonal().transpose();
+    model.solids = {solid};
+    model.volume = solid.volume;
+    return model;
+}
+
 FeatureOptions quick() {
     FeatureOptions options;
     options.samples.count = 1500;
@@ -377,6 +416,16 @@ TEST(Match, BoxesMatchByFacesAndByMomentsInAllTheirSymmetries) {
         SCOPED_TRACE(cube.why);
         ASSERT_EQ(cube.status, AlignmentStatus::found);
         EXPECT_EQ(cube.symmetries.size(), 47u);
+    }
+
+    // Two moments of a prism are equal, so its turns are found by sampling: n turns, turned over too, and their mirrors.
+    for (const int n : {3, 5, 6}) {
+        const Alignment turned = match_models(prism(n, 2.0, 1.3, identity), prism(n, 2.0, 1.3, place.inverse()),
+                                              {.method = MethodChoice::moments});
+        SCOPED_TRACE(turned.why);
+        ASSERT_EQ(turned.status, AlignmentStatus::found);
+        EXPECT_NE(turned.why.find("moments"), std::string::npos);
+        EXPECT_EQ(turned.symmetries.size(), 4u * n - 1) << n;
     }
 
     // Two boxes share edges and angles, never the ratio of their sides.

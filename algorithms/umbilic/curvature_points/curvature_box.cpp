@@ -14,7 +14,6 @@ namespace umbilic {
 namespace {
 
 using Values = Eigen::Map<const Eigen::ArrayXd>;
-using Rows = Eigen::Map<const Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
 
 /// A preconditioner is used down to this relative determinant.
 constexpr double least_relative_determinant = 1e-9;
@@ -28,26 +27,6 @@ constexpr double widest_range = 3.0;
 constexpr double small_blur = 0.05;
 /// Roundings in the constants and weights of a linearisation, in units of roundoff of its largest term.
 constexpr double linearisation_units = 32 * unit_roundoff;
-
-/// Ranges of the differences of neighbouring rows (u) and columns (v), times the degree.
-std::array<Interval, 2> derivative_hull(CoefficientShape shape, const double* c) {
-    std::array<Interval, 2> result{};
-    const Rows rows(c, shape.p + 1, shape.row_length());
-    if (shape.p > 0) {
-        const auto d = rows.bottomRows(shape.p) - rows.topRows(shape.p);
-        result[0] = {shape.p * d.minCoeff(), shape.p * d.maxCoeff()};
-    }
-    if (shape.q > 0) {
-        Interval v{0.0, 0.0};
-        for (int i = 0; i <= shape.p; ++i) {
-            const Values left(c + i * shape.row_length(), shape.q), right(c + i * shape.row_length() + 1, shape.q);
-            const double low = (right - left).minCoeff(), high = (right - left).maxCoeff();
-            v = i == 0 ? Interval{low, high} : hull(v, {low, high});
-        }
-        result[1] = {shape.q * v.low, shape.q * v.high};
-    }
-    return result;
-}
 
 }  // namespace
 
@@ -64,8 +43,7 @@ void CurvatureBox::take(CoefficientShape shape, bool rational, const double* coe
         const double low = values.minCoeff(), high = values.maxCoeff();
         magnitude_[k] = std::max(std::abs(low), std::abs(high));
         range_[k] = inflated({low, high}, errors_[k]);
-        const Rows rows(array(k), shape_.p + 1, shape_.row_length());
-        mean_slope_[k] = {(rows.row(shape_.p) - rows.row(0)).mean(), (rows.col(shape_.q) - rows.col(0)).mean()};
+        mean_slope_[k] = mean_derivative(shape_, array(k));
         slope_[k].reset();
     }
     // t is a square.
@@ -79,9 +57,9 @@ void CurvatureBox::take(CoefficientShape shape, bool rational, const double* coe
 }
 
 Vector2 CurvatureBox::largest_slope(int k) const {
-    const std::array<Interval, 2> d = derivative_hull(shape_, array(k));
+    const std::array<Interval, 2> d = difference_hulls(shape_, array(k));
     const double error = 2 * errors_[k] + 4 * unit_roundoff * magnitude_[k];
-    return {d[0].magnitude() + shape_.p * error, d[1].magnitude() + shape_.q * error};
+    return {shape_.p * (d[0].magnitude() + error), shape_.q * (d[1].magnitude() + error)};
 }
 
 void CurvatureBox::linearise_integral(const CurvatureLevel& level) {
@@ -256,8 +234,9 @@ std::optional<double> CurvatureBox::contraction(const Matrix2& y) {
         for (int f = 0; f < 2; ++f)
             for (int a = t; a < arrays_; ++a) slack += std::abs(y(k, f)) * slack_[f][a] * *slope_[a];
         slack *= bound_slack;
-        const std::array<Interval, 2> d = derivative_hull(shape_, g);
-        const Interval u = inflated(d[0], slack.x()), v = inflated(d[1], slack.y());
+        const std::array<Interval, 2> d = difference_hulls(shape_, g);
+        const Interval u = inflated(Interval(shape_.p) * d[0], slack.x());
+        const Interval v = inflated(Interval(shape_.q) * d[1], slack.y());
         const double sum =
             k == 0 ? (Interval(1.0) - u).magnitude() + v.magnitude() : u.magnitude() + (Interval(1.0) - v).magnitude();
         if (!std::isfinite(sum)) return std::numeric_limits<double>::infinity();
@@ -268,31 +247,8 @@ std::optional<double> CurvatureBox::contraction(const Matrix2& y) {
 
 void CurvatureBox::evaluate(const Vector2& at, std::array<double, most_arrays>& value,
                             std::array<Vector2, most_arrays>* gradient) {
-    const int p = shape_.p, q_degree = shape_.q, length = shape_.row_length();
-    basis_.resize(2 * (p + q_degree + 2));
-    double* bu = basis_.data();
-    double* du = bu + p + 1;
-    double* bv = du + p + 1;
-    double* dv = bv + q_degree + 1;
-    bernstein_basis(p, at.x(), bu, du);
-    bernstein_basis(q_degree, at.y(), bv, dv);
-    using Matrix = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
-    for (int k = 0; k < arrays_; ++k) {
-        const Matrix c(array(k), p + 1, length);
-        double f = 0.0, f_u = 0.0, f_v = 0.0;
-        for (int i = 0; i <= p; ++i) {
-            double along = 0.0, slope = 0.0;
-            for (int j = 0; j < length; ++j) {
-                along += bv[j] * c(i, j);
-                if (gradient) slope += dv[j] * c(i, j);
-            }
-            f += bu[i] * along;
-            f_u += du[i] * along;
-            f_v += bu[i] * slope;
-        }
-        value[k] = f;
-        if (gradient) (*gradient)[k] = {f_u, f_v};
-    }
+    point_.move_to(shape_, at);
+    for (int k = 0; k < arrays_; ++k) value[k] = point_.value(array(k), gradient ? &(*gradient)[k] : nullptr);
 }
 
 std::array<Interval, 2> CurvatureBox::residual(const CurvatureLevel& level, const Matrix2& y, const Vector2& at) {
@@ -341,15 +297,11 @@ bool CurvatureBox::newton(const CurvatureLevel& level, double reach, Vector2& at
 
 Vector2 CurvatureBox::variation(const CurvatureLevel& level) const {
     Vector2 result = Vector2::Zero();
-    const int p = shape_.p, columns = shape_.q;
     const double room[2] = {level.gaussian_tolerance * g_.high, 2 * level.mean_tolerance * h_.high};
     for (int k = 0; k < 2; ++k) {
         const double unit = level.exact() ? hull_[k].magnitude() : room[k];
         if (!(unit > 0.0)) continue;
-        const Rows rows(combined_.data() + k * shape_.size(), p + 1, shape_.row_length());
-        const double u = p == 0 ? 0.0 : (rows.bottomRows(p) - rows.topRows(p)).abs().sum() / shape_.row_length();
-        const double v = columns == 0 ? 0.0 : (rows.rightCols(columns) - rows.leftCols(columns)).abs().sum() / (p + 1);
-        result = result.cwiseMax(Vector2(u, v) / unit);
+        result = result.cwiseMax(mean_variation(shape_, combined_.data() + k * shape_.size()) / unit);
     }
     return result;
 }

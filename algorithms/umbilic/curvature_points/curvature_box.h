@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <umbilic/bernstein/coefficient_array.h>
 #include <umbilic/bernstein/interval.h>
 #include <umbilic/bernstein/subdivision.h>
 #include <umbilic/core/types.h>
@@ -93,7 +94,8 @@ private:
     std::array<Interval, 2> hull_{};  ///< of the two sums with their constants, without remainder and error
     std::array<double, 2> size_{};
     std::optional<std::pair<double, double>> combined_for_;  ///< K and H of the level that combined_ is for
-    std::vector<double> combined_, preconditioned_, basis_;
+    std::vector<double> combined_, preconditioned_;
+    BernsteinPoint point_;
 };
 
 }  // namespace umbilic

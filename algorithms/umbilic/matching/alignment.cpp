@@ -27,6 +27,10 @@ const char* name(MatchMethod method) {
             return "analytic";
         case MatchMethod::umbilics:
             return "umbilics";
+        case MatchMethod::umbilic_lines:
+            return "umbilics-lines";
+        case MatchMethod::umbilic_kh:
+            return "umbilics-kh";
         case MatchMethod::moments:
             return "moments";
         case MatchMethod::curvature:

@@ -13,7 +13,7 @@ namespace umbilic {
 /// compatible: it fits, but there is too little evidence; not_found: nothing fits.
 enum class AlignmentStatus { found, ambiguous, compatible, not_found };
 
-enum class MatchMethod { none, given, analytic, umbilics, moments, curvature, kh, points };
+enum class MatchMethod { none, given, analytic, umbilics, umbilic_lines, umbilic_kh, moments, curvature, kh, points };
 
 /// global: suspect and original as wholes; partial: the suspect is (or contains) a part of the original.
 enum class MatchScope { global, partial };
@@ -26,6 +26,12 @@ struct PoseCandidate {
     double original_score = 0.0;  ///< the same of the original within tolerance of the suspect
     double rms = 0.0;  ///< root mean square distance of the samples that count as covered, mm of the original
     double max = 0.0;  ///< largest such distance
+};
+
+/// A given pair of corresponding points beside the similarity that the consistent ones among all pairs fix.
+struct GivenPair {
+    double residual = 0.0;  ///< mm of the original
+    bool outlier = false;   ///< does not agree with the others and was left out
 };
 
 /// Where the suspect lies with respect to the original.
@@ -48,6 +54,7 @@ struct Alignment {
     std::vector<SimilarityTransform> copies;      ///< one pose a place, see copies.h; more than one where the original
                                                   ///< stands in the suspect, or the suspect in the original, repeatedly
     std::vector<FreeMotion> free_motions;         ///< of the suspect on the original, that no distance tells
+    std::vector<GivenPair> given_pairs;           ///< in the order given; empty without pairs
 
     bool found() const { return status == AlignmentStatus::found; }
 };

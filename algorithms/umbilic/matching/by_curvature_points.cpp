@@ -2,22 +2,15 @@
 #include <umbilic/matching/by_curvature_points.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
-#include <map>
-#include <optional>
 #include <string>
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <umbilic/core/errors.h>
-#include <umbilic/curvature_points/curvature_gradient.h>
-#include <umbilic/curvature_points/curvature_points.h>
-#include <umbilic/curvature_points/dependence.h>
-#include <umbilic/differential/fundamental_forms.h>
+#include <umbilic/matching/curvature_finder.h>
 #include <umbilic/matching/horn.h>
 #include <umbilic/matching/pose_distance.h>
 #include <umbilic/matching/scale_search.h>
@@ -28,16 +21,6 @@ namespace umbilic {
 
 namespace {
 
-/// Samples among which seeds are chosen.
-constexpr std::size_t seed_pool = 1200;
-/// Seeds need a principal frame: (kappa_max - kappa_min) / rho at least this.
-constexpr double least_anisotropy = 0.2;
-/// K and H alike: within this part of rho^2 and rho.
-constexpr double alike = 0.1;
-/// Commonness below this makes a seed no better: it has few solutions already.
-constexpr double rare = 0.01;
-/// A seed counts less where the surface is flatter than this, relative to one over the length.
-constexpr double curved = 2.0;
 /// A voter must come to lie this near to one of its solutions, relative to the moved suspect's length, and its normal
 /// within 26 degrees.
 constexpr double vote_distance = 0.05, vote_cosine = 0.9;
@@ -81,13 +64,13 @@ bool better(const Hypothesis& a, const Hypothesis& b) {
     return a.votes != b.votes ? a.votes > b.votes : a.spread < b.spread;
 }
 
-/// Solutions of each seed on the original: as the seed is, and as it is seen from behind.
-using Solutions = std::vector<std::array<std::vector<Curvature>, 2>>;
+/// Solutions of each seed on the original.
+using Solutions = CurvatureSolutions;
 
 class CurvaturePointSearch {
 public:
     CurvaturePointSearch(const PreparedModel& original, const PreparedModel& suspect,
-                         const CurvaturePointMatching& options)
+                         const CurvaturePointMatching& options, const Progress& progress)
         : original_(original),
           suspect_(suspect),
           options_(options),
@@ -95,13 +78,11 @@ public:
           length_(shape_size(suspect.features).length),
           distance_(suspect.features),
           seeds_(choose_curvature_seeds(suspect, options.seeds)),
-          samples_(spread_samples(suspect.features.samples, objective_samples)) {
-        for (std::size_t k = 0; k < original.model.faces.size(); ++k)
-            if (!curvature_dependence(original.model.faces[k])) faces_.push_back(k);
-    }
+          samples_(spread_samples(suspect.features.samples, objective_samples)),
+          finder_(original.model, options.solver, progress) {}
 
     const std::vector<CurvatureSeed>& seeds() const { return seeds_; }
-    std::size_t faces() const { return faces_.size(); }
+    std::size_t faces() const { return finder_.faces(); }
     double length() const { return length_; }
 
     /// Poses at one scale, most votes first, different ones only.
@@ -127,7 +108,7 @@ private:
     PoseDistance distance_;
     std::vector<CurvatureSeed> seeds_;
     std::vector<int> samples_;
-    std::vector<std::size_t> faces_;
+    CurvatureFinder finder_;
 };
 
 Solutions CurvaturePointSearch::solve(double scale, double tolerance, const Progress& progress) const {
@@ -137,20 +118,7 @@ Solutions CurvaturePointSearch::solve(double scale, double tolerance, const Prog
         queries.push_back({seed.curvature.gaussian() / (scale * scale), seed.curvature.mean() / scale,
                            tolerance * size * size, tolerance * size});
     }
-    CurvaturePointOptions options;
-    options.both_signs = !oriented_;
-    options.recognition = 0.0;  // faces_ holds the others
-    std::vector<CurvaturePoints> found(faces_.size());
-    tbb::parallel_for(std::size_t{0}, faces_.size(), [&](std::size_t k) {
-        progress.check();
-        found[k] = find_curvature_points(original_.model.faces[faces_[k]], queries, options, progress.part(0.0, 0.0));
-    });
-    Solutions result(seeds_.size());
-    for (const CurvaturePoints& face : found)
-        for (const CurvaturePoint& point : face.points)
-            if (point.containment != Containment::outside && point.curvature.regular)
-                result[point.query][point.opposite].push_back(point.curvature);
-    return result;
+    return finder_.find(queries, !oriented_, progress);
 }
 
 std::vector<std::pair<int, const Curvature*>> CurvaturePointSearch::voters(const Hypothesis& hypothesis,
@@ -266,84 +234,49 @@ std::string number(double value) {
     return text;
 }
 
+Proposals first_words(const CurvaturePointSearch& search) {
+    if (search.seeds().empty() || search.faces() == 0)
+        return {.why = std::string("kh: ") + (search.faces() == 0 ? "the original" : "the suspect") +
+                       " has no face on which Gaussian and mean curvature together tell the place"};
+    return {.why = "kh: " + std::to_string(search.seeds().size()) + " points of the suspect"};
+}
+
+void hand_on(const std::vector<Hypothesis>& poses, Proposals& result) {
+    for (const Hypothesis& hypothesis : poses) result.poses.push_back({hypothesis.pose, MatchMethod::kh});
+}
+
 }  // namespace
 
-std::vector<CurvatureSeed> choose_curvature_seeds(const PreparedModel& model, int count) {
-    std::map<int, const Face*> faces;
-    for (const Face& face : model.model.faces)
-        if (!curvature_dependence(face)) faces[face.number] = &face;
-    const std::vector<AreaSample>& samples = model.features.samples;
-    const double length = shape_size(model.features).length;
-    std::vector<CurvatureSeed> pool;
-    const std::size_t stride = samples.size() / seed_pool + 1;
-    for (std::size_t k = 0; k < samples.size(); k += stride) {
-        const Curvature& c = samples[k].curvature;
-        const double size = rho(c);
-        const auto face = faces.find(samples[k].at.face);
-        if (face == faces.end() || !(size > 0.0) || c.kappa_max - c.kappa_min < least_anisotropy * size) continue;
-        const SurfaceDerivatives d = face->second->surface.derivatives(samples[k].at.u, samples[k].at.v, 3);
-        if (!regular(d)) continue;
-        const CurvatureGradient gradient = curvature_gradient(d);
-        Matrix2 slopes;
-        slopes << gradient.gaussian_slope.transpose() / (size * size), gradient.mean_slope.transpose() / size;
-        const double least = slopes.jacobiSvd().singularValues()[1];
-        if (!(least * length > 0.0)) continue;
-        pool.push_back({samples[k].at, c, 1.0 / least});
-    }
-    for (CurvatureSeed& seed : pool) {
-        const double size = rho(seed.curvature);
-        int like = 0;
-        for (const CurvatureSeed& other : pool)
-            like += std::abs(other.curvature.gaussian() - seed.curvature.gaussian()) < alike * size * size &&
-                    std::abs(std::abs(other.curvature.mean()) - std::abs(seed.curvature.mean())) < alike * size;
-        seed.commonness = static_cast<double>(like) / static_cast<double>(pool.size());
-    }
-    const auto worth = [&](const CurvatureSeed& seed) {
-        return std::min(1.0, length / seed.sensitivity) * std::min(1.0, rho(seed.curvature) * length / curved) * rare /
-               (rare + seed.commonness);
-    };
-    // Farthest first, weighted.
-    std::vector<CurvatureSeed> result;
-    std::vector<double> nearest(pool.size(), length);
-    while (static_cast<int>(result.size()) < count) {
-        std::size_t best = pool.size();
-        double best_value = 0.0;
-        for (std::size_t k = 0; k < pool.size(); ++k) {
-            const double value = nearest[k] * std::sqrt(worth(pool[k]));
-            if (value > best_value) {
-                best_value = value;
-                best = k;
-            }
+Proposals poses_by_curvature_points_at(const PreparedModel& original, const PreparedModel& suspect,
+                                       std::span<const double> scales, const CurvaturePointMatching& options,
+                                       const Progress& progress) {
+    const CurvaturePointSearch search(original, suspect, options, progress);
+    Proposals result = first_words(search);
+    if (search.seeds().empty() || search.faces() == 0) return result;
+    std::vector<Hypothesis> all;
+    for (const double scale : scales) {
+        std::vector<Hypothesis> poses = search.poses(scale, 0.0, most_proposals, progress);
+        if (poses.empty() || poses.front().votes < enough_votes) {
+            const std::vector<Hypothesis> more = search.poses(scale, loose, most_proposals, progress);
+            poses.insert(poses.end(), more.begin(), more.end());
         }
-        if (best == pool.size()) break;
-        result.push_back(pool[best]);
-        for (std::size_t k = 0; k < pool.size(); ++k)
-            nearest[k] = std::min(nearest[k], (pool[k].curvature.point - pool[best].curvature.point).norm());
+        all.insert(all.end(), poses.begin(), poses.end());
     }
+    std::stable_sort(all.begin(), all.end(), better);
+    hand_on(all, result);
+    if (result.poses.empty()) result.why += " have no counterpart on the original";
     return result;
 }
 
 Proposals poses_by_curvature_points(const PreparedModel& original, const PreparedModel& suspect,
                                     const CurvaturePointMatching& options, const Progress& progress) {
-    const CurvaturePointSearch search(original, suspect, options);
-    if (search.seeds().empty() || search.faces() == 0)
-        return {.why = std::string("kh: ") + (search.faces() == 0 ? "the original" : "the suspect") +
-                       " has no face on which Gaussian and mean curvature together tell the place"};
-    Proposals result{.why = "kh: " + std::to_string(search.seeds().size()) + " points of the suspect"};
-    const auto hand_on = [&](const std::vector<Hypothesis>& poses) {
-        for (const Hypothesis& hypothesis : poses) result.poses.push_back({hypothesis.pose, MatchMethod::kh});
-    };
     if (options.scale.kind == ScaleChoice::Kind::fixed) {
-        std::vector<Hypothesis> poses = search.poses(1.0, 0.0, most_proposals, progress);
-        if (poses.empty() || poses.front().votes < enough_votes) {
-            const std::vector<Hypothesis> more = search.poses(1.0, loose, most_proposals, progress);
-            poses.insert(poses.end(), more.begin(), more.end());
-            std::stable_sort(poses.begin(), poses.end(), better);
-        }
-        hand_on(poses);
-        if (result.poses.empty()) result.why += " have no counterpart on the original";
-        return result;
+        const double one = 1.0;
+        return poses_by_curvature_points_at(original, suspect, {&one, 1}, options, progress);
     }
+    const CurvaturePointSearch search(original, suspect, options, progress);
+    Proposals result = first_words(search);
+    if (search.seeds().empty() || search.faces() == 0) return result;
 
     double low = options.scale.low, high = options.scale.high;
     if (options.scale.kind == ScaleChoice::Kind::automatic) {
@@ -366,7 +299,7 @@ Proposals poses_by_curvature_points(const PreparedModel& original, const Prepare
                                                               : golden_section_minimum(objective, a, b, scale_accuracy);
         });
     for (const Minimum& minimum : minima)
-        hand_on(search.poses(std::exp(minimum.at), 0.0, most_proposals / most_minima, progress));
+        hand_on(search.poses(std::exp(minimum.at), 0.0, most_proposals / most_minima, progress), result);
     result.why += ", scale searched in " + number(low) + ":" + number(high) + " by " +
                   (options.scale_search == ScaleSearch::brent ? "Brent's method" : "the golden section") + ", " +
                   std::to_string(evaluated) + " times";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <umbilic/matching/by_moments.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -73,6 +74,13 @@ std::vector<Matrix3> frame_changes(MomentSymmetry symmetry, MirrorChoice mirror)
     return all;
 }
 
+/// Near the limit only one of the two may count as symmetric, or each in another pair of moments: sample what either
+/// leaves open.
+MomentSymmetry either(MomentSymmetry a, MomentSymmetry b) {
+    if (a == b || b == MomentSymmetry::none) return a;
+    return a == MomentSymmetry::none ? b : MomentSymmetry::all_equal;
+}
+
 std::string described(MomentSymmetry symmetry) {
     switch (symmetry) {
         case MomentSymmetry::none:
@@ -121,9 +129,11 @@ ShapeMoments area_moments(const Features& features) {
     return result;
 }
 
-MomentSymmetry moment_symmetry(const ShapeMoments& moments) {
+MomentSymmetry moment_symmetry(const ShapeMoments& moments, double difference) {
     const Vector3 value = principal_axes(moments).moments;
-    const double equal = (moments.dimension == 3 ? equal_volume_moments : equal_area_moments) * value[2];
+    const double equal =
+        std::max(moments.dimension == 3 ? equal_volume_moments : equal_area_moments, gap_of_difference * difference) *
+        value[2];
     const bool smaller = value[1] - value[0] <= equal, greater = value[2] - value[1] <= equal;
     if (smaller && greater) return MomentSymmetry::all_equal;
     return smaller   ? MomentSymmetry::two_smaller_equal
@@ -151,11 +161,11 @@ Proposals poses_by_moments(const PreparedModel& original, const PreparedModel& s
     if (!(difference.cwiseAbs().maxCoeff() <= comparable_moments))
         return {.why = what + ": the principal moments of the wholes differ"};
 
-    const MomentSymmetry symmetry_a = moment_symmetry(a), symmetry_b = moment_symmetry(b);
-    // Near the limit only one of the two may count as symmetric: sample if either does.
-    const MomentSymmetry symmetry =
-        symmetry_a == MomentSymmetry::none || symmetry_b == MomentSymmetry::all_equal ? symmetry_b : symmetry_a;
-    Proposals result{.why = what + ": " + described(symmetry)};
+    const double greatest =
+        std::min(axes_a.moments[2] / axes_a.moments.sum(), axes_b.moments[2] / axes_b.moments.sum());
+    const double apart = difference.cwiseAbs().maxCoeff() / greatest;
+    const MomentSymmetry symmetry = either(moment_symmetry(a, apart), moment_symmetry(b, apart));
+    Proposals result{.sampled = symmetry != MomentSymmetry::none, .why = what + ": " + described(symmetry)};
     for (const Matrix3& change : frame_changes(symmetry, mirror)) {
         const Matrix3 orthogonal = axes_a.axes * change * axes_b.axes.transpose();
         const double s = scale.clamp(ratio);

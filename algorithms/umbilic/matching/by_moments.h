@@ -30,13 +30,21 @@ enum class MomentSymmetry { none, two_smaller_equal, two_greater_equal, all_equa
 inline constexpr double equal_volume_moments = 1e-3;
 inline constexpr double equal_area_moments = 2e-2;
 
-MomentSymmetry moment_symmetry(const ShapeMoments& moments);
+/// Moments of two shapes that differ turn the axes apart by up to the difference over the gap between two of them: axes
+/// within 15 degrees, from where refinement converges, need a gap of this many times the difference.
+inline constexpr double gap_of_difference = 4.0;
+
+/// `difference`: how far the moments are from those of the shape to compare with, as a part of the greatest one; gaps
+/// below gap_of_difference times it count as none.
+MomentSymmetry moment_symmetry(const ShapeMoments& moments, double difference = 0.0);
 
 /// Poses that lay the principal axes of the two wholes onto each other (thesis 4.5): scale = cube root of the ratio of
 /// the volumes (square root of that of the areas), centroid on centroid, four proper orientations and, if mirror images
 /// are allowed, four more. Volumes are compared if both models have solids, areas otherwise. Where principal axes are
-/// not defined (two or three equal moments) the free angle or the whole rotation group is sampled, and `why` says so.
-/// Nothing is proposed if the normalised moments differ: then the wholes are not copies of each other.
+/// not defined (two or three moments equal within their accuracy, or nearer to each other than the two models' moments
+/// are: cubes, bodies of revolution, n-fold prisms) the free angle or the whole rotation group is sampled, and `why`
+/// says so; which of the poses is right is never guessed from the axes that rounding happens to give. Nothing is
+/// proposed if the normalised moments differ: then the wholes are not copies of each other.
 Proposals poses_by_moments(const PreparedModel& original, const PreparedModel& suspect, const ScaleChoice& scale,
                            MirrorChoice mirror);
 

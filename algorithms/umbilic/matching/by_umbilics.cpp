@@ -36,8 +36,8 @@ constexpr double scale_slack = 1.2;
 constexpr double vote_budget = 5e7;
 constexpr std::size_t most_improved = 1000, most_proposals = 400;
 
-/// A cubic smaller than this part of kappa^2 (or of 1 / size^2 where flat) has no direction.
-constexpr double vanishing_cubic = 1e-9;
+/// An umbilic about to vanish still counts with this part of the steadiest one's.
+constexpr double least_steadiness = 1e-2;
 
 struct Pair {
     int original = 0;
@@ -52,15 +52,10 @@ struct Hypothesis {
 
 /// One choice of hand and orientation for the whole suspect.
 struct Reading {
-    std::vector<UmbilicMark> suspect;
+    const std::vector<UmbilicMark>& suspect;
     std::vector<Pair> pairs;  ///< ordered by suspect
     std::vector<Hypothesis> hypotheses;
 };
-
-UmbilicMark turned(const UmbilicMark& mark, bool flip, bool mirror) {
-    UmbilicMark result = flip ? flipped(mark) : mark;
-    return mirror ? mirrored(result) : result;
-}
 
 std::vector<Pair> corresponding(const std::vector<UmbilicMark>& original, const std::vector<UmbilicMark>& suspect,
                                 double tolerance) {
@@ -68,8 +63,9 @@ std::vector<Pair> corresponding(const std::vector<UmbilicMark>& original, const 
     for (int j = 0; j < static_cast<int>(suspect.size()); ++j)
         for (int i = 0; i < static_cast<int>(original.size()); ++i) {
             const UmbilicMark &a = original[i], &b = suspect[j];
-            if (std::abs(a.delta - b.delta) <= tolerance && std::abs(a.zeta - b.zeta) <= tolerance &&
-                std::abs(a.bend() - b.bend()) <= tolerance)
+            if (std::abs(a.delta - b.delta) <= tolerance + a.delta_error + b.delta_error &&
+                std::abs(a.zeta - b.zeta) <= tolerance + a.zeta_error + b.zeta_error &&
+                std::abs(a.bend() - b.bend()) <= tolerance + a.bend_error + b.bend_error)
                 pairs.push_back({i, j});
         }
     return pairs;
@@ -106,28 +102,21 @@ void vote(const std::vector<UmbilicMark>& original, const Reading& reading, doub
     for (const auto& [pair, distance] : found) hypothesis.spread += distance / (limit * found.size());
 }
 
-/// Least squares over all voters; each stands for its point and the tip of its normal, so that two suffice.
+/// Least squares over all voters.
 void improve(const std::vector<UmbilicMark>& original, const Reading& reading, double length, const ScaleChoice& scale,
              Hypothesis& hypothesis) {
     if (hypothesis.votes < 2) return;
-    const double tip = 0.5 * length;
-    std::vector<PointPair> points;
+    std::vector<std::pair<UmbilicMark, UmbilicMark>> voters;
     for (const auto& [pair, distance] :
-         partners(original, reading, hypothesis.pose, vote_distance * length * hypothesis.pose.scale)) {
-        const UmbilicMark &a = original[pair.original], &b = reading.suspect[pair.suspect];
-        points.push_back({a.point, b.point});
-        points.push_back({a.point + hypothesis.pose.scale * tip * a.normal, b.point + tip * b.normal});
-    }
-    try {
-        Hypothesis better{fit_points(points, {.free_scale = scale.kind != ScaleChoice::Kind::fixed,
-                                              .mirrored = hypothesis.pose.mirrored})
-                              .original_suspect};
-        vote(original, reading, length, better);
-        if (better.votes > hypothesis.votes || (better.votes == hypothesis.votes && better.spread < hypothesis.spread))
-            hypothesis = better;
-    } catch (const InvalidInput&) {
-        // Umbilics one above the other along their normals lie on a line: the pose from the single pair stands.
-    }
+         partners(original, reading, hypothesis.pose, vote_distance * length * hypothesis.pose.scale))
+        voters.emplace_back(original[pair.original], reading.suspect[pair.suspect]);
+    // Umbilics one above the other along their normals lie on a line: then the pose from the single pair stands.
+    const auto pose = pose_from_pairs(voters, hypothesis.pose, length, scale.kind != ScaleChoice::Kind::fixed);
+    if (!pose) return;
+    Hypothesis better{*pose};
+    vote(original, reading, length, better);
+    if (better.votes > hypothesis.votes || (better.votes == hypothesis.votes && better.spread < hypothesis.spread))
+        hypothesis = better;
 }
 
 bool better(const Hypothesis& a, const Hypothesis& b) {
@@ -135,59 +124,6 @@ bool better(const Hypothesis& a, const Hypothesis& b) {
 }
 
 }  // namespace
-
-double UmbilicMark::cubic_norm() const {
-    return std::sqrt(std::norm(alpha) + 3.0 * std::norm(beta));
-}
-
-double UmbilicMark::bend() const {
-    return std::atan2(kappa * std::abs(kappa), cubic_norm());
-}
-
-std::vector<UmbilicMark> umbilic_marks(const Model& model, const Features& features) {
-    std::vector<UmbilicMark> marks;
-    std::size_t face = 0;
-    for (const FaceUmbilics& entry : features.umbilics) {
-        while (face < model.faces.size() && model.faces[face].number != entry.face) ++face;
-        const bool reversed = face < model.faces.size() && model.faces[face].reversed;
-        for (const Umbilic& umbilic : entry.umbilics) {
-            if (umbilic.containment != Containment::inside) continue;
-            UmbilicMark mark{.point = umbilic.point,
-                             .normal = umbilic.normal,
-                             .x = umbilic.x_axis,
-                             .y = umbilic.normal.cross(umbilic.x_axis),
-                             .kappa = umbilic.kappa,
-                             .alpha = umbilic.kind.alpha,
-                             .beta = umbilic.kind.beta,
-                             .delta = umbilic.kind.delta,
-                             .zeta = umbilic.kind.zeta};
-            const double unit = std::max(umbilic.kappa * umbilic.kappa, 1.0 / std::max(model.area, 1e-300));
-            if (!(mark.cubic_norm() > vanishing_cubic * unit)) continue;
-            marks.push_back(reversed ? flipped(mark) : mark);
-        }
-    }
-    return marks;
-}
-
-UmbilicMark flipped(const UmbilicMark& mark) {
-    UmbilicMark result = mark;
-    result.normal = -mark.normal;
-    result.y = -mark.y;
-    result.kappa = -mark.kappa;
-    result.alpha = -std::conj(mark.alpha);
-    result.beta = -std::conj(mark.beta);
-    result.zeta = std::conj(mark.zeta);
-    return result;
-}
-
-UmbilicMark mirrored(const UmbilicMark& mark) {
-    UmbilicMark result = mark;
-    result.y = -mark.y;
-    result.alpha = std::conj(mark.alpha);
-    result.beta = std::conj(mark.beta);
-    result.zeta = std::conj(mark.zeta);
-    return result;
-}
 
 std::vector<SimilarityTransform> poses_from_pair(const UmbilicMark& original, const UmbilicMark& suspect,
                                                  double misfit) {
@@ -232,6 +168,28 @@ std::vector<SimilarityTransform> poses_from_pair(const UmbilicMark& original, co
     return poses;
 }
 
+std::optional<SimilarityTransform> pose_from_pairs(std::span<const std::pair<UmbilicMark, UmbilicMark>> pairs,
+                                                   const SimilarityTransform& near, double length, bool free_scale) {
+    std::vector<double> steadiness;
+    for (const auto& [a, b] : pairs)
+        steadiness.push_back(std::min(a.steadiness(), b.steadiness() / (near.scale * near.scale)));
+    const double greatest = steadiness.empty() ? 0.0 : *std::max_element(steadiness.begin(), steadiness.end());
+    const double tip = 0.5 * length;
+    std::vector<PointPair> points;
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+        const auto& [a, b] = pairs[k];
+        const double relative = greatest > 0.0 ? std::max(steadiness[k] / greatest, least_steadiness) : 1.0;
+        const double weight = relative * relative;
+        points.push_back({a.point, b.point, weight});
+        points.push_back({a.point + near.scale * tip * a.normal, b.point + tip * b.normal, weight});
+    }
+    try {
+        return fit_points(points, {.free_scale = free_scale, .mirrored = near.mirrored}).original_suspect;
+    } catch (const InvalidInput&) {
+        return {};
+    }
+}
+
 Proposals poses_by_umbilics(const PreparedModel& original, const PreparedModel& suspect, const ScaleChoice& scale,
                             MirrorChoice mirror, double invariant_tolerance, const Progress& progress) {
     const std::vector<UmbilicMark> marks_a = umbilic_marks(original.model, original.features);
@@ -245,14 +203,10 @@ Proposals poses_by_umbilics(const PreparedModel& original, const PreparedModel& 
 
     const double length = shape_size(suspect.features).length;
     const bool oriented = original.model.oriented() && suspect.model.oriented();
+    const std::vector<UmbilicReading> marks = umbilic_readings(marks_b, oriented, mirror);
     std::vector<Reading> readings;
-    for (const bool mirror_image : {false, true})
-        for (const bool flip : {false, true}) {
-            if ((mirror_image && mirror == MirrorChoice::never) || (flip && oriented)) continue;
-            Reading& reading = readings.emplace_back();
-            for (const UmbilicMark& mark : marks_b) reading.suspect.push_back(turned(mark, flip, mirror_image));
-            reading.pairs = corresponding(marks_a, reading.suspect, invariant_tolerance);
-        }
+    for (const UmbilicReading& reading : marks)
+        readings.push_back({reading.marks, corresponding(marks_a, reading.marks, invariant_tolerance), {}});
     std::size_t pair_count = 0;
     std::vector<Hypothesis> all;
     for (std::size_t r = 0; r < readings.size(); ++r) {

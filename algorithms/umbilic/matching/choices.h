@@ -4,11 +4,15 @@
 namespace umbilic {
 
 /// automatic: given pairs or pose, analytic faces, umbilics, moments, curvature, in this order, until a pose convinces;
-/// of measured points their local jets. points: these alone. kh: points of equal Gaussian and mean curvature, on request
-/// only.
-enum class MethodChoice { automatic, analytic, umbilics, moments, curvature, kh, points };
+/// of measured points their local jets. points: these alone. On request only, the thesis's own methods: kh, points of
+/// equal Gaussian and mean curvature; umbilic_lines and umbilic_kh, methods 1 and 2 of its 4.7.1.
+enum class MethodChoice { automatic, analytic, umbilics, umbilic_lines, umbilic_kh, moments, curvature, kh, points };
 /// How the scale is searched where points of equal curvature are compared at one scale after the other.
 enum class ScaleSearch { golden_section, brent };
+/// How points of given curvatures are found. direct: find_curvature_points(); the thesis's own for comparison:
+/// auxiliary, the system with an auxiliary variable by the projected polyhedron (its Appendix B); approximated, bicubic
+/// surfaces of K and H (4.8).
+enum class CurvatureSolver { direct, auxiliary, approximated };
 enum class MirrorChoice { automatic, never };
 enum class ScopeChoice { automatic, global, partial };
 

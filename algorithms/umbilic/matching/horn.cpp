@@ -22,7 +22,7 @@ struct CentredSets {
     Matrix3 correlation = Matrix3::Zero();  ///< sum w m n^T, m of the suspect, n of the original
 };
 
-void check(std::span<const PointPair> pairs) {
+void check_numbers(std::span<const PointPair> pairs) {
     if (pairs.size() < 3)
         throw InvalidInput("corresponding points: " + std::to_string(pairs.size()) +
                            " pairs are too few; give at least three that do not lie on a line");
@@ -38,6 +38,7 @@ void check_extent(const Matrix3& scatter, const char* which) {
                            " coincide or lie on a line; add a pair beside it");
 }
 
+/// Throws if either set is collinear.
 CentredSets centre(std::span<const PointPair> pairs) {
     CentredSets sets;
     double weight = 0.0;
@@ -75,8 +76,13 @@ Matrix3 best_rotation(const Matrix3& m) {
 
 }  // namespace
 
+void check_pairs(std::span<const PointPair> pairs) {
+    check_numbers(pairs);
+    centre(pairs);
+}
+
 PointFit fit_points(std::span<const PointPair> pairs, const PointFitOptions& options) {
-    check(pairs);
+    check_numbers(pairs);
     const CentredSets sets = centre(pairs);
 
     SimilarityTransform pose;

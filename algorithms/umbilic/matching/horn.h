@@ -32,14 +32,17 @@ struct PointFit {
 /// eigenvalues).
 inline constexpr double collinear_extent = 1e-7;
 
+/// Throws InvalidInput if there are fewer than three pairs, a number is not finite, a weight is not positive, or either
+/// set is collinear.
+void check_pairs(std::span<const PointPair> pairs);
+
 /// Similarity that carries the suspect's points onto the original's with the least weighted squares (thesis 3.2,
 /// (3.1)-(3.5)): centroids, the rotation about them as the unit quaternion that belongs to the greatest eigenvalue of
 /// Horn's symmetric 4 x 4 matrix (Horn 1987, "Closed-form solution of absolute orientation using unit quaternions"),
 /// translation c_o - s R c_s. The printed (3.3) with M = sum n m^T gives the inverse rotation; here M = sum m n^T, m of
 /// the suspect. The rotation is proper for every input. The scale minimises the residuals in the suspect's unit,
 /// sum |n / s - R m|^2: measured in the original's unit they shrink with s, and noise would make the fit too small.
-/// Throws InvalidInput if there are fewer than three pairs, a number is not finite, a weight is not positive, or either
-/// set is collinear.
+/// Throws InvalidInput as check_pairs() does.
 PointFit fit_points(std::span<const PointPair> pairs, const PointFitOptions& options = {});
 
 }  // namespace umbilic

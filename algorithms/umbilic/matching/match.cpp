@@ -9,13 +9,14 @@
 #include <umbilic/core/errors.h>
 #include <umbilic/matching/by_analytic_faces.h>
 #include <umbilic/matching/by_curvature_points.h>
+#include <umbilic/matching/by_given_pairs.h>
 #include <umbilic/matching/by_moments.h>
 #include <umbilic/matching/by_principal_frame.h>
+#include <umbilic/matching/by_umbilic_lines.h>
 #include <umbilic/matching/by_umbilics.h>
 #include <umbilic/matching/copies.h>
 #include <umbilic/matching/decision.h>
 #include <umbilic/matching/fix_by_borders.h>
-#include <umbilic/matching/horn.h>
 #include <umbilic/matching/pose_search.h>
 
 namespace umbilic {
@@ -36,22 +37,15 @@ constexpr int second_order_seeds = 6;
 constexpr std::size_t most_faces = 8;
 constexpr double least_face_share = 0.05;
 
-Proposals given_poses(const MatchOptions& options) {
+Proposals given_poses(const MatchOptions& options, const std::vector<ConsistentPointFit>& pairs) {
     Proposals result;
     if (options.initial) {
         result.poses.push_back({*options.initial, MatchMethod::given});
         result.why = "the initial pose";
     }
-    if (options.pairs.empty()) return result;
-    std::vector<PointPair> pairs;
-    for (const auto& [original, suspect] : options.pairs) pairs.push_back({original, suspect});
-    const bool free_scale = options.scale.kind != ScaleChoice::Kind::fixed;
-    for (const bool mirrored : {false, true}) {
-        if (mirrored && options.mirror == MirrorChoice::never) continue;
-        const PointFit fit = fit_points(pairs, {.free_scale = free_scale, .mirrored = mirrored});
-        result.poses.push_back({fit.original_suspect, MatchMethod::given});
-    }
-    result.why += (result.why.empty() ? "" : ", ") + std::to_string(pairs.size()) + " given pairs of points";
+    if (pairs.empty()) return result;
+    for (const ConsistentPointFit& fit : pairs) result.poses.push_back({fit.original_suspect, MatchMethod::given});
+    result.why += (result.why.empty() ? "" : ", ") + described(pairs);
     return result;
 }
 
@@ -103,7 +97,8 @@ Proposals kh_poses(const PreparedModel& original, const PreparedModel& suspect, 
                    bool swapped, const Progress& progress) {
     const CurvaturePointMatching matching{.scale = swapped ? options.scale.inverse() : options.scale,
                                           .scale_search = options.scale_search,
-                                          .mirror = options.mirror};
+                                          .mirror = options.mirror,
+                                          .solver = options.curvature_solver};
     if (!swapped) return poses_by_curvature_points(original, suspect, matching, progress);
     Proposals result = poses_by_curvature_points(suspect, original, matching, progress);
     for (PoseHypothesis& pose : result.poses) pose.original_suspect = pose.original_suspect.inverse();
@@ -140,8 +135,9 @@ Alignment match(const PreparedModel& original, const PreparedModel& suspect, con
         search.consider(proposals, keep, error, part);
     };
 
-    if (options.initial || !options.pairs.empty())
-        consider(given_poses(options), refined_poses, given_error, progress.part(0.0, 0.05));
+    const std::vector<ConsistentPointFit> pairs = fit_given_pairs(options);
+    if (options.initial || !pairs.empty())
+        consider(given_poses(options, pairs), refined_poses, given_error, progress.part(0.0, 0.05));
     bool conclusive = false;
     const auto wanted = [&](MethodChoice method) {
         return (options.method == MethodChoice::automatic || options.method == method) && !conclusive &&
@@ -157,6 +153,16 @@ Alignment match(const PreparedModel& original, const PreparedModel& suspect, con
         consider(poses_by_umbilics(original, suspect, options.scale, options.mirror,
                                    options.umbilic_invariant_tolerance, progress.part(0.1, 0.3)),
                  refined_poses, umbilics_error, progress.part(0.3, 0.5));
+    if (options.method == MethodChoice::umbilic_lines && wanted(options.method))
+        consider(poses_by_umbilic_lines(original, suspect, options.scale, options.mirror,
+                                        options.umbilic_invariant_tolerance, progress.part(0.1, 0.3)),
+                 refined_poses, umbilics_error, progress.part(0.3, 0.5));
+    if (options.method == MethodChoice::umbilic_kh && wanted(options.method))
+        consider(poses_by_umbilic_scale(
+                     original, suspect,
+                     {.scale = options.scale, .mirror = options.mirror, .solver = options.curvature_solver},
+                     options.umbilic_invariant_tolerance, progress.part(0.1, 0.7)),
+                 refined_poses, kh_error, progress.part(0.7, 0.9));
     // Moments belong to wholes: they say nothing of a piece.
     if (wanted(MethodChoice::moments) &&
         (options.scope != ScopeChoice::partial || options.method == MethodChoice::moments))
@@ -193,6 +199,7 @@ Alignment match(const PreparedModel& original, const PreparedModel& suspect, con
     progress.report(0.9, "comparing poses");
     Alignment alignment = decide_alignment(search, tried, progress.part(0.9, 1.0));
     alignment.copies = copies(alignment, original, suspect);
+    alignment.given_pairs = judged_pairs(pairs, alignment.original_suspect.mirrored);
     if (options.scope == ScopeChoice::global && alignment.status == AlignmentStatus::found &&
         alignment.scope == MatchScope::partial) {
         alignment.status = AlignmentStatus::compatible;

@@ -17,6 +17,8 @@ struct MatchOptions {
     ScaleChoice scale;
     /// Of the method kh, where the scale is not fixed.
     ScaleSearch scale_search = ScaleSearch::golden_section;
+    /// Of the methods kh and umbilic_kh.
+    CurvatureSolver curvature_solver = CurvatureSolver::direct;
     MirrorChoice mirror = MirrorChoice::automatic;
     ScopeChoice scope = ScopeChoice::automatic;
     /// Pose to start from (--initial): it is refined and takes part as a hypothesis.
@@ -28,8 +30,8 @@ struct MatchOptions {
     /// Greatest difference of the scale-free invariants (delta, zeta) of two umbilics that may correspond, delta_omega
     /// of the thesis.
     double umbilic_invariant_tolerance = 0.15;
-    /// Time after which no further pose is tried and the best one so far is judged; none: until a pose convinces. With a
-    /// time limit results depend on the machine.
+    /// Time after which no further pose is tried and the best one so far is judged; none: until a pose convinces. With
+    /// a time limit results depend on the machine.
     std::optional<double> seconds;
 };
 

@@ -11,8 +11,8 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <umbilic/core/errors.h>
+#include <umbilic/matching/by_given_pairs.h>
 #include <umbilic/matching/by_principal_frame.h>
-#include <umbilic/matching/horn.h>
 #include <umbilic/matching/pose_distance.h>
 #include <umbilic/matching/quadric.h>
 #include <umbilic/matching/refine.h>
@@ -81,6 +81,7 @@ public:
           options_(options),
           rough_(original.table),
           distance_(suspect.samples),
+          pairs_(fit_given_pairs(options)),
           few_(spread(suspect.samples, rough_points)),
           some_(spread(suspect.samples, near_points)),
           many_(spread(suspect.samples, exact_points)) {}
@@ -94,23 +95,16 @@ public:
         poses = refined(poses, original_.exact, many_, near_cutoff, RefineOptions().maximum_steps,
                         progress.part(0.7, 0.95));
         keep(poses, exact_poses);
-        return decided(poses, progress.part(0.95, 1.0));
+        Alignment alignment = decided(poses, progress.part(0.95, 1.0));
+        alignment.given_pairs = judged_pairs(pairs_, alignment.original_suspect.mirrored);
+        return alignment;
     }
 
 private:
     std::vector<Pose> proposed(const Progress& progress) {
         std::vector<Pose> poses;
         if (options_.initial) poses.push_back({*options_.initial, MatchMethod::given});
-        if (!options_.pairs.empty()) {
-            std::vector<PointPair> pairs;
-            for (const auto& [original, suspect] : options_.pairs) pairs.push_back({original, suspect});
-            for (const bool mirrored : {false, true})
-                if (!mirrored || options_.mirror == MirrorChoice::automatic)
-                    poses.push_back({fit_points(pairs, {.free_scale = options_.scale.kind != ScaleChoice::Kind::fixed,
-                                                        .mirrored = mirrored})
-                                         .original_suspect,
-                                     MatchMethod::given});
-        }
+        for (const ConsistentPointFit& fit : pairs_) poses.push_back({fit.original_suspect, MatchMethod::given});
         const PrincipalFrameOptions frames{.third_order = false,
                                            .keep = rough_poses,
                                            .flip_normals = !(original_.oriented && suspect_.oriented),
@@ -227,7 +221,8 @@ private:
 
     Alignment decided(const std::vector<Pose>& poses, const Progress& progress) const {
         Alignment result;
-        const std::string tried = "principal frames of the points' jets, noise " + printed("%.3g mm", suspect_.noise) +
+        const std::string tried = (pairs_.empty() ? "" : described(pairs_) + ", ") +
+                                  "principal frames of the points' jets, noise " + printed("%.3g mm", suspect_.noise) +
                                   " of the suspect's " + printed("%.3g mm", suspect_.length);
         if (poses.empty()) {
             result.why =
@@ -319,15 +314,17 @@ private:
     const MatchOptions& options_;
     TableGround rough_;
     PoseDistance distance_;
+    std::vector<ConsistentPointFit> pairs_;
     std::vector<WeightedPoint> few_, some_, many_;
 };
 
 void check_method(const MatchOptions& options) {
-    if (options.method == MethodChoice::umbilics || options.method == MethodChoice::moments ||
+    if (options.method == MethodChoice::umbilics || options.method == MethodChoice::umbilic_lines ||
+        options.method == MethodChoice::umbilic_kh || options.method == MethodChoice::moments ||
         options.method == MethodChoice::analytic)
         throw Unsupported(
-            "match: points have neither umbilics nor moments nor analytic faces of their own; use --method auto, or fit a surface first "
-            "(umbilic fit)");
+            "match: points have neither umbilics nor moments nor analytic faces of their own; use --method auto, or "
+            "fit a surface first (umbilic fit)");
 }
 
 Alignment global_only(Alignment alignment, const MatchOptions& options) {
@@ -345,7 +342,8 @@ Alignment match(const PreparedModel& original, const PreparedPoints& suspect, co
                 const Progress& progress) {
     check_options(options);
     check_method(options);
-    if (original.table.entries().empty()) throw InvalidInput(original.model.source.path + ": no face has a regular point");
+    if (original.table.entries().empty())
+        throw InvalidInput(original.model.source.path + ": no face has a regular point");
     const Ground ground(original);
     const Original side{.exact = ground,
                         .table = original.table,

@@ -21,6 +21,7 @@ struct Proposals {
     bool open = false;  ///< some of many poses: the method leaves motions free
     /// Whatever poses there are, they are among these: no other method need be asked.
     bool conclusive = false;
+    bool sampled = false;  ///< turns were sampled: poses are off by up to half a step, although much may fit
     std::string why;  ///< what was compared, or why nothing could be proposed; a clause without full stop
 };
 

@@ -141,7 +141,7 @@ void PoseSearch::consider(const Proposals& proposals, int keep, double start_cut
         if (out_of_time()) break;
         progress.report(0.5 + 0.5 * i / chosen.size(), "refining poses");
         ScoredPose pose{.hypothesis = chosen[i]};
-        if (!approach(pose, points, start_cutoff, progress)) continue;
+        if (!approach(pose, points, start_cutoff, proposals.sampled, progress)) continue;
         const auto near = find_same(pose);
         if (near != poses_.end() && !near->approximate) continue;
         const double shares = soft_shares(pose, FitTolerance::measured);
@@ -206,12 +206,14 @@ bool PoseSearch::lay(ScoredPose& scored, const GroundSurface& ground, std::span<
     return true;
 }
 
-bool PoseSearch::approach(ScoredPose& pose, const Points& points, double start_cutoff, const Progress& progress) const {
+bool PoseSearch::approach(ScoredPose& pose, const Points& points, double start_cutoff, bool sampled,
+                          const Progress& progress) const {
     const bool larger_suspect = suspect_is_larger(pose.hypothesis.original_suspect.scale);
     const std::span<const WeightedPoint> all(larger_suspect ? points.original : points.suspect);
     const RefineOptions options{.scale = larger_suspect ? options_.scale.inverse() : options_.scale,
                                 .start_cutoff = start_cutoff,
-                                .maximum_steps = approaching_steps};
+                                .maximum_steps = approaching_steps,
+                                .hold_determined = sampled};
     // What is near needs no approach: samples would only take it farther away.
     if (start_cutoff > near_cutoff && !lay(pose, larger_suspect ? suspect_samples_ : original_samples_,
                                            all.first(std::min(approaching_points, all.size())), options, progress))

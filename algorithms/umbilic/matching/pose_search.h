@@ -71,7 +71,8 @@ private:
     };
     /// Brings a rough pose near with a few points on the tables of samples, on which it is then measured; false if too
     /// little comes to lie.
-    bool approach(ScoredPose& pose, const Points& points, double start_cutoff, const Progress& progress) const;
+    bool approach(ScoredPose& pose, const Points& points, double start_cutoff, bool sampled,
+                  const Progress& progress) const;
     /// Refines a near pose on the surfaces themselves and measures it; false if too little comes to lie.
     bool refine_exactly(ScoredPose& pose, const Points& points, double start_cutoff, const Progress& progress) const;
     bool lay(ScoredPose& pose, const GroundSurface& ground, std::span<const WeightedPoint> points,

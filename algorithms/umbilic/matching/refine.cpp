@@ -132,6 +132,18 @@ NormalEquations normal_equations(std::span<const WeightedPoint> points, const st
     return equations;
 }
 
+/// Motions that the points with residuals below the cut-off determine.
+int determined_motions(std::span<const WeightedPoint> points, std::vector<Foot> feet, double cutoff, double radius,
+                       bool free_scale) {
+    for (Foot& foot : feet) foot.used = foot.used && std::abs(foot.residual) <= cutoff;
+    const NormalEquations equations = normal_equations(points, feet, cutoff, radius);
+    const int n = free_scale ? 7 : 6;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> motions(equations.unweighted.topLeftCorner(n, n),
+                                                                 Eigen::EigenvaluesOnly);
+    const Eigen::VectorXd& values = motions.eigenvalues();
+    return static_cast<int>((values.array() > undetermined_motion * values[n - 1]).count());
+}
+
 /// Least-squares step in mm within the motions that change distances; the others stay 0.
 Vector7 solve(const NormalEquations& equations, bool free_scale) {
     const int n = free_scale ? 7 : 6;
@@ -209,7 +221,13 @@ Refinement refine(const GroundSurface& original, std::span<const WeightedPoint> 
             quartile > filled * relative_cutoff && relative_cutoff > close_cutoff && last_step < relative_cutoff;
         const double wanted =
             force ? std::max(forced_shrink * relative_cutoff, close_cutoff) : tukey * quartile_to_deviation * quartile;
-        const double next_cutoff = std::max(std::min(wanted, relative_cutoff), least_cutoff);
+        double next_cutoff = std::max(std::min(wanted, relative_cutoff), least_cutoff);
+        const double slow_cutoff = forced_shrink * relative_cutoff;
+        const auto determined = [&](double relative) {
+            return determined_motions(points, feet, relative * length, result.radius, free_scale);
+        };
+        if (options.hold_determined && next_cutoff < slow_cutoff && determined(next_cutoff) < determined(slow_cutoff))
+            next_cutoff = slow_cutoff;
 
         const bool settled = !force && next_cutoff >= forced_shrink * relative_cutoff;
         // The new cut-off holds for this step already: a start that is right must not be pulled away by foreign

@@ -29,6 +29,10 @@ struct RefineOptions {
     /// Points that hang over a border are drawn back to it instead of being left out: for a suspect of which nothing
     /// is foreign, and that could otherwise slide off a border without resistance.
     bool hold_borders = false;
+    /// The cut-off does not fall at once so far that motions are left undetermined by the points within it: for starts
+    /// that are known to be off although much may fit already, such as the bases of a prism that is turned about its
+    /// axis.
+    bool hold_determined = false;
 };
 
 struct Refinement {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <Eigen/Geometry>
 
@@ -115,14 +114,6 @@ void classify_piece(const SurfaceDerivatives& d, const UmbilicSensitivity& sensi
     umbilic.cubic_error = error.of(displacement);
     umbilic.kind = classify(umbilic.cubic, norm > 0.0 ? std::min(1.0, umbilic.cubic_error / norm) : 1.0);
     if (umbilic.kind.type != UmbilicType::non_generic) umbilic.margin = error.displacement(umbilic.kind.margin * norm);
-}
-
-/// Least distance of the values of omega, of which each has three.
-double omega_distance(std::complex<double> a, std::complex<double> b) {
-    double least = std::abs(a - b);
-    for (const double turn : {-1.0, 1.0})
-        least = std::min(least, std::abs(a - b * std::polar(1.0, turn * 2 * std::numbers::pi / 3)));
-    return least;
 }
 
 /// Widens the errors and the class so that they cover another piece's as well.

@@ -223,6 +223,13 @@ Cubic cubic_of_omega(Complex omega) {
     return {6 * omega.real() + 2, 2 * omega.imag(), 2 * omega.real() - 2, 6 * omega.imag()};
 }
 
+double omega_distance(Complex a, Complex b) {
+    double least = std::abs(a - b);
+    for (const double turn : {-1.0, 1.0})
+        least = std::min(least, std::abs(a - b * std::polar(1.0, turn * 2 * std::numbers::pi / 3)));
+    return least;
+}
+
 UmbilicType type_of(GenericType type) {
     switch (type) {
         case GenericType::elliptic_star:

@@ -17,7 +17,6 @@ namespace umbilic {
 namespace {
 
 using Array = Eigen::Map<const Eigen::ArrayXd>;
-using Rows = Eigen::Map<const Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
 
 /// A preconditioner is used down to this relative determinant: near |omega| = 1 it still helps greatly.
 constexpr double least_relative_determinant = 1e-9;
@@ -39,23 +38,6 @@ constexpr long boxes_per_check = 4096;
 
 Interval range(const Array& values) {
     return {values.minCoeff(), values.maxCoeff()};
-}
-
-/// Range of the differences of neighbouring columns.
-Interval column_differences(CoefficientShape shape, const double* c) {
-    Interval result{0.0, 0.0};
-    for (int i = 0; i <= shape.p; ++i) {
-        const Array left(c + i * shape.row_length(), shape.q), right(c + i * shape.row_length() + 1, shape.q);
-        const double low = (right - left).minCoeff(), high = (right - left).maxCoeff();
-        result = i == 0 ? Interval{low, high} : hull(result, {low, high});
-    }
-    return result;
-}
-
-Interval row_differences(CoefficientShape shape, const double* c) {
-    const int count = shape.p * shape.row_length();
-    const Array low(c, count), high(c + shape.row_length(), count);
-    return {(high - low).minCoeff(), (high - low).maxCoeff()};
 }
 
 bool inside_unit(const Vector2& at, double radius) {
@@ -109,7 +91,6 @@ void CommonZeroSearch::set_polynomials(const TensorPolynomial& a, const TensorPo
     root_bounds_ = with_local_errors(root_.data(), root_bounds_);
     combined_.resize(2 * size);
     enlarged_.resize(2 * size);
-    basis_.resize(2 * (shape_.p + shape_.q + 2));
 }
 
 CommonZeroSearch::Bounds CommonZeroSearch::with_local_errors(const double* coefficients, Bounds bounds) const {
@@ -237,17 +218,12 @@ CommonZeroSearch::Outcome CommonZeroSearch::examine(const Node& node, const doub
     const Vector2 mean(Array(polynomial[0], size).mean(), Array(polynomial[1], size).mean());
     if (combination_excludes(node, coefficients, mean)) return Outcome::empty;
 
-    const int p = shape_.p, length = shape_.row_length();
-    Matrix2 mean_derivative;
-    for (int k = 0; k < 2; ++k) {
-        const Rows rows(polynomial[k], p + 1, length);
-        mean_derivative(k, 0) = (rows.row(p) - rows.row(0)).mean();
-        mean_derivative(k, 1) = (rows.col(shape_.q) - rows.col(0)).mean();
-    }
-    const double determinant = mean_derivative.determinant();
-    const double row_product = mean_derivative.row(0).lpNorm<1>() * mean_derivative.row(1).lpNorm<1>();
+    Matrix2 derivative;
+    for (int k = 0; k < 2; ++k) derivative.row(k) = mean_derivative(shape_, polynomial[k]).transpose();
+    const double determinant = derivative.determinant();
+    const double row_product = derivative.row(0).lpNorm<1>() * derivative.row(1).lpNorm<1>();
     if (std::abs(determinant) > least_relative_determinant * row_product && !vanishes[0] && !vanishes[1]) {
-        const Matrix2 preconditioner = mean_derivative.inverse();
+        const Matrix2 preconditioner = derivative.inverse();
         const std::optional<double> r = contraction(coefficients, node.bounds, preconditioner);
         if (!r) return Outcome::empty;
         if (*r < largest_contraction) {
@@ -261,12 +237,9 @@ CommonZeroSearch::Outcome CommonZeroSearch::examine(const Node& node, const doub
     u_variation_ = v_variation_ = 0.0;
     for (int k = 0; k < 2; ++k) {
         if (vanishes[k]) continue;
-        const Rows rows(polynomial[k], p + 1, length);
-        const double u = p == 0 ? 0.0 : (rows.bottomRows(p) - rows.topRows(p)).abs().sum() / length;
-        const double v =
-            shape_.q == 0 ? 0.0 : (rows.rightCols(shape_.q) - rows.leftCols(shape_.q)).abs().sum() / (p + 1);
-        u_variation_ = std::max(u_variation_, u / magnitude_[k]);
-        v_variation_ = std::max(v_variation_, v / magnitude_[k]);
+        const Vector2 variation = mean_variation(shape_, polynomial[k]) / magnitude_[k];
+        u_variation_ = std::max(u_variation_, variation.x());
+        v_variation_ = std::max(v_variation_, variation.y());
     }
     return Outcome::split;
 }
@@ -320,10 +293,9 @@ std::optional<double> CommonZeroSearch::contraction(const double* coefficients, 
         const double* g = combined_.data() + k * size;
         const double difference_error =
             (2 * errors[k] + 4 * unit_roundoff * Array(g, size).abs().maxCoeff()) * bound_slack;
-        const Interval u =
-            shape_.p == 0 ? Interval() : Interval(shape_.p) * inflated(row_differences(shape_, g), difference_error);
-        const Interval v =
-            shape_.q == 0 ? Interval() : Interval(shape_.q) * inflated(column_differences(shape_, g), difference_error);
+        const std::array<Interval, 2> d = difference_hulls(shape_, g);
+        const Interval u = Interval(shape_.p) * inflated(d[0], difference_error);
+        const Interval v = Interval(shape_.q) * inflated(d[1], difference_error);
         const double sum =
             k == 0 ? (Interval(1.0) - u).magnitude() + v.magnitude() : u.magnitude() + (Interval(1.0) - v).magnitude();
         norm = std::max(norm, sum * bound_slack);
@@ -332,28 +304,11 @@ std::optional<double> CommonZeroSearch::contraction(const double* coefficients, 
 }
 
 void CommonZeroSearch::evaluate(const double* coefficients, const Vector2& at, Vector2& value, Matrix2* jacobian) {
-    const int p = shape_.p, q = shape_.q, length = shape_.row_length();
-    double* bu = basis_.data();
-    double* du = bu + p + 1;
-    double* bv = du + p + 1;
-    double* dv = bv + q + 1;
-    bernstein_basis(p, at.x(), bu, du);
-    bernstein_basis(q, at.y(), bv, dv);
+    point_.move_to(shape_, at);
     for (int k = 0; k < 2; ++k) {
-        const double* row = coefficients + k * shape_.size();
-        double f = 0.0, f_u = 0.0, f_v = 0.0;
-        for (int i = 0; i <= p; ++i, row += length) {
-            double value_row = 0.0, derivative_row = 0.0;
-            for (int j = 0; j <= q; ++j) {
-                value_row += bv[j] * row[j];
-                derivative_row += dv[j] * row[j];
-            }
-            f += bu[i] * value_row;
-            f_u += du[i] * value_row;
-            f_v += bu[i] * derivative_row;
-        }
-        value[k] = f;
-        if (jacobian) jacobian->row(k) << f_u, f_v;
+        Vector2 gradient;
+        value[k] = point_.value(coefficients + k * shape_.size(), jacobian ? &gradient : nullptr);
+        if (jacobian) jacobian->row(k) = gradient.transpose();
     }
 }
 

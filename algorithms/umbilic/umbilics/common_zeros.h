@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include <umbilic/bernstein/coefficient_array.h>
 #include <umbilic/bernstein/subdivision.h>
 #include <umbilic/bernstein/tensor_polynomial.h>
 #include <umbilic/core/progress.h>
@@ -127,7 +128,8 @@ private:
     Vector2 wanted_radius_ = Vector2::Zero();
     std::vector<double> slots_;  ///< `arrays_` arrays per open node of the depth-first tree
     std::vector<Node> nodes_;
-    std::vector<double> combined_, enlarged_, basis_;
+    std::vector<double> combined_, enlarged_;
+    BernsteinPoint point_;
     std::array<double, 2> magnitude_{};
     double u_variation_ = 0.0, v_variation_ = 0.0;
 };

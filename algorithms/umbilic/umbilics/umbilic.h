@@ -56,6 +56,9 @@ struct UmbilicClass {
 /// non_generic.
 UmbilicClass classify(const Cubic& cubic, double relative_error);
 
+/// Least distance of two values of omega, of which each has three.
+double omega_distance(std::complex<double> a, std::complex<double> b);
+
 UmbilicType type_of(GenericType type);
 StarKind star_of(GenericType type);
 /// None for non_generic.

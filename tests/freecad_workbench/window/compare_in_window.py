@@ -11,6 +11,7 @@ import Part
 from PySide import QtGui
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from freecad.Umbilic.panels import compare_panel
 from steps import (MODELS, OUTPUT, child, click, click_command, close_panel, colors_in, finished, panel, run,
                    screenshot, wait)
 
@@ -53,6 +54,10 @@ def check_comparison(document):
     form = panel("UmbilicComparePanel")
     assert child(form, QtGui.QComboBox, "original").currentText() == "Original"
     assert child(form, QtGui.QComboBox, "suspect").currentText() == "Suspect"
+    # What is chosen by its place in a list stands there in both places.
+    for name, words in (("method", compare_panel._METHODS), ("scale", compare_panel._SCALES),
+                        ("scope", compare_panel._SCOPES)):
+        assert child(form, QtGui.QComboBox, name).count() == len(words), name
     screenshot("1_panel")
     click(form, "run")
     assert finished(form) == "Done.", finished(form)

@@ -16,7 +16,8 @@ from .model_choice import ModelChoice
 from .result_text import result_html
 from .work_panel import WorkPanel, selected_objects
 
-_METHODS = ("auto", "analytic", "umbilics", "moments", "curvature", "kh")
+# In the order of the entries in compare.ui.
+_METHODS = ("auto", "analytic", "umbilics", "umbilics-lines", "umbilics-kh", "moments", "curvature", "kh")
 _SCALES = ("auto", "fixed")
 _SCOPES = ("auto", "global", "partial")
 
