@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Success matrix of matching free-form surfaces: pieces of designs, exact, re-approximated, mirrored or among foreign
 // material, in unknown places, sizes (1/20 ... 20) and hands.
-// surfaces_success [--cases N] [--only TEXT] [--method auto|umbilics|umbilics-lines|umbilics-kh|curvature]
+// surfaces_success [--cases N] [--only TEXT] [--method METHOD]
 //   --cases N     cases a cell (default 51, shared among the shapes)
 //   --only TEXT   rows whose name contains TEXT
 #include <algorithm>
@@ -10,7 +10,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
-#include <map>
 #include <memory>
 #include <random>
 #include <string>
@@ -22,6 +21,7 @@
 #include <support/reparametrisation.h>
 #include <support/surfaces.h>
 #include <umbilic/core/errors.h>
+#include <umbilic/matching/choice_words.h>
 #include <umbilic/matching/match.h>
 
 #include "free_form.h"
@@ -194,11 +194,6 @@ void run(int cases, const std::string& only, const MatchOptions& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    const std::map<std::string, MethodChoice> methods = {{"auto", MethodChoice::automatic},
-                                                         {"umbilics", MethodChoice::umbilics},
-                                                         {"umbilics-lines", MethodChoice::umbilic_lines},
-                                                         {"umbilics-kh", MethodChoice::umbilic_kh},
-                                                         {"curvature", MethodChoice::curvature}};
     int cases = 51;
     std::string only;
     MatchOptions options;
@@ -208,8 +203,8 @@ int main(int argc, char** argv) {
             cases = std::atoi(value.c_str());
         } else if (word == "--only" && !value.empty()) {
             only = value;
-        } else if (word == "--method" && methods.count(value)) {
-            options.method = methods.at(value);
+        } else if (word == "--method" && method_words.count(value)) {
+            options.method = method_words.at(value);
         } else {
             std::fprintf(stderr, "surfaces_success: '%s %s' is not understood\n", word.c_str(), value.c_str());
             return 2;

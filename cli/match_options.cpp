@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <cli/given_poses.h>
+#include <umbilic/matching/choice_words.h>
 
 namespace umbilic {
 
@@ -50,17 +51,7 @@ void add_match_options(CLI::App& subcommand, MatchWords& words) {
         .add_option("--method", words.options.match.method,
                     "How poses are proposed: auto, analytic, umbilics, umbilics-lines, umbilics-kh, moments, "
                     "curvature, kh or points")
-        ->transform(
-            CLI::CheckedTransformer(std::map<std::string, MethodChoice>{{"auto", MethodChoice::automatic},
-                                                                        {"analytic", MethodChoice::analytic},
-                                                                        {"umbilics", MethodChoice::umbilics},
-                                                                        {"umbilics-lines", MethodChoice::umbilic_lines},
-                                                                        {"umbilics-kh", MethodChoice::umbilic_kh},
-                                                                        {"moments", MethodChoice::moments},
-                                                                        {"curvature", MethodChoice::curvature},
-                                                                        {"kh", MethodChoice::kh},
-                                                                        {"points", MethodChoice::points}})
-                .description(""))
+        ->transform(CLI::CheckedTransformer(method_words).description(""))
         ->type_name("METHOD")
         ->group(group);
     subcommand
@@ -72,9 +63,7 @@ void add_match_options(CLI::App& subcommand, MatchWords& words) {
     subcommand
         .add_option("--scale-search", words.options.match.scale_search,
                     "How the method kh searches a scale that is not fixed: golden (section) or brent")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, ScaleSearch>{{"golden", ScaleSearch::golden_section},
-                                                                               {"brent", ScaleSearch::brent}})
-                        .description(""))
+        ->transform(CLI::CheckedTransformer(scale_search_words).description(""))
         ->type_name("SEARCH")
         ->group(group);
     subcommand
@@ -82,24 +71,15 @@ void add_match_options(CLI::App& subcommand, MatchWords& words) {
             "--kh-solver", words.options.match.curvature_solver,
             "How the methods kh and umbilics-kh find points of given curvatures: direct, or as the thesis does, "
             "auxiliary (slow) or approximated")
-        ->transform(CLI::CheckedTransformer(
-                        std::map<std::string, CurvatureSolver>{{"direct", CurvatureSolver::direct},
-                                                               {"auxiliary", CurvatureSolver::auxiliary},
-                                                               {"approximated", CurvatureSolver::approximated}})
-                        .description(""))
+        ->transform(CLI::CheckedTransformer(curvature_solver_words).description(""))
         ->type_name("SOLVER")
         ->group(group);
     subcommand.add_option("--mirror", words.options.match.mirror, "Whether mirror images are tried: auto or never")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, MirrorChoice>{{"auto", MirrorChoice::automatic},
-                                                                                {"never", MirrorChoice::never}})
-                        .description(""))
+        ->transform(CLI::CheckedTransformer(mirror_words).description(""))
         ->type_name("MIRROR")
         ->group(group);
     subcommand.add_option("--scope", words.options.match.scope, "Whole models or parts: auto, global or partial")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, ScopeChoice>{{"auto", ScopeChoice::automatic},
-                                                                               {"global", ScopeChoice::global},
-                                                                               {"partial", ScopeChoice::partial}})
-                        .description(""))
+        ->transform(CLI::CheckedTransformer(scope_words).description(""))
         ->type_name("SCOPE")
         ->group(group);
     subcommand

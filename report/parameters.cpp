@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <report/parameters.h>
 
+#include <umbilic/matching/choice_words.h>
+
 namespace umbilic {
 
 namespace {
@@ -13,60 +15,10 @@ Parameter constant(std::string name, const Value& value, const Value& default_va
             value == default_value ? ToleranceOrigin::fixed_default : ToleranceOrigin::user, std::move(meaning)};
 }
 
-std::string word(MethodChoice choice) {
-    switch (choice) {
-        case MethodChoice::automatic:
-            return "auto";
-        case MethodChoice::analytic:
-            return "analytic";
-        case MethodChoice::umbilics:
-            return "umbilics";
-        case MethodChoice::umbilic_lines:
-            return "umbilics-lines";
-        case MethodChoice::umbilic_kh:
-            return "umbilics-kh";
-        case MethodChoice::moments:
-            return "moments";
-        case MethodChoice::curvature:
-            return "curvature";
-        case MethodChoice::kh:
-            return "kh";
-        case MethodChoice::points:
-            return "points";
-    }
-    return "auto";
-}
-
-std::string word(ScaleSearch choice) {
-    return choice == ScaleSearch::brent ? "brent" : "golden";
-}
-
-std::string word(CurvatureSolver choice) {
-    switch (choice) {
-        case CurvatureSolver::direct:
-            return "direct";
-        case CurvatureSolver::auxiliary:
-            return "auxiliary";
-        case CurvatureSolver::approximated:
-            return "approximated";
-    }
-    return "direct";
-}
-
-std::string word(MirrorChoice choice) {
-    return choice == MirrorChoice::never ? "never" : "auto";
-}
-
-std::string word(ScopeChoice choice) {
-    switch (choice) {
-        case ScopeChoice::automatic:
-            return "auto";
-        case ScopeChoice::global:
-            return "global";
-        case ScopeChoice::partial:
-            return "partial";
-    }
-    return "auto";
+template <class Choice>
+Parameter chosen(std::string name, const ChoiceWords<Choice>& words, Choice value, Choice default_value,
+                 std::string meaning) {
+    return constant(std::move(name), word_of(words, value), word_of(words, default_value), "", std::move(meaning));
 }
 
 std::string word(const ScaleChoice& choice) {
@@ -90,19 +42,18 @@ std::vector<Parameter> match_parameters(const FeatureOptions& features, const Ma
     const auto& search = features.umbilics;
     const auto& search_defaults = feature_defaults.umbilics;
     std::vector<Parameter> parameters;
-    parameters.push_back(constant("method", word(options.method), word(defaults.method), "", "how poses are proposed"));
+    parameters.push_back(chosen("method", method_words, options.method, defaults.method, "how poses are proposed"));
     parameters.push_back(
         constant("scale", word(options.scale), word(defaults.scale), "", "what is known of the scale"));
     if (options.method == MethodChoice::kh)
-        parameters.push_back(constant("scale_search", word(options.scale_search), word(defaults.scale_search), "",
-                                      "how the method kh searches a scale that is not fixed"));
+        parameters.push_back(chosen("scale_search", scale_search_words, options.scale_search, defaults.scale_search,
+                                    "how the method kh searches a scale that is not fixed"));
     if (options.method == MethodChoice::kh || options.method == MethodChoice::umbilic_kh)
-        parameters.push_back(constant("kh_solver", word(options.curvature_solver), word(defaults.curvature_solver), "",
-                                      "how points of given curvatures are found"));
+        parameters.push_back(chosen("kh_solver", curvature_solver_words, options.curvature_solver,
+                                    defaults.curvature_solver, "how points of given curvatures are found"));
     parameters.push_back(
-        constant("mirror", word(options.mirror), word(defaults.mirror), "", "whether mirror images are tried"));
-    parameters.push_back(
-        constant("scope", word(options.scope), word(defaults.scope), "", "whole models or parts of them"));
+        chosen("mirror", mirror_words, options.mirror, defaults.mirror, "whether mirror images are tried"));
+    parameters.push_back(chosen("scope", scope_words, options.scope, defaults.scope, "whole models or parts of them"));
     if (options.initial) {
         parameters.push_back({"initial", "given", "", ToleranceOrigin::user, "a pose to start from"});
     }

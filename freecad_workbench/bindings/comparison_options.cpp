@@ -15,6 +15,7 @@
 #include <Eigen/LU>
 
 #include <umbilic/core/errors.h>
+#include <umbilic/matching/choice_words.h>
 
 namespace umbilic::python {
 
@@ -105,34 +106,17 @@ CompareOptions comparison_options(const py::dict& keywords) {
         const auto name = value_of<std::string>("option", key, "a name");
         if (value.is_none()) continue;
         if (name == "method") {
-            options.match.method = choice_of<MethodChoice>(name, value,
-                                                           {{"auto", MethodChoice::automatic},
-                                                            {"analytic", MethodChoice::analytic},
-                                                            {"umbilics", MethodChoice::umbilics},
-                                                            {"umbilics-lines", MethodChoice::umbilic_lines},
-                                                            {"umbilics-kh", MethodChoice::umbilic_kh},
-                                                            {"moments", MethodChoice::moments},
-                                                            {"curvature", MethodChoice::curvature},
-                                                            {"kh", MethodChoice::kh},
-                                                            {"points", MethodChoice::points}});
+            options.match.method = choice_of(name, value, method_words);
         } else if (name == "scale") {
             options.match.scale = scale_of(name, value);
         } else if (name == "scale_search") {
-            options.match.scale_search = choice_of<ScaleSearch>(
-                name, value, {{"golden", ScaleSearch::golden_section}, {"brent", ScaleSearch::brent}});
+            options.match.scale_search = choice_of(name, value, scale_search_words);
         } else if (name == "kh_solver") {
-            options.match.curvature_solver =
-                choice_of<CurvatureSolver>(name, value,
-                                           {{"direct", CurvatureSolver::direct},
-                                            {"auxiliary", CurvatureSolver::auxiliary},
-                                            {"approximated", CurvatureSolver::approximated}});
+            options.match.curvature_solver = choice_of(name, value, curvature_solver_words);
         } else if (name == "mirror") {
-            options.match.mirror = choice_of<MirrorChoice>(
-                name, value, {{"auto", MirrorChoice::automatic}, {"never", MirrorChoice::never}});
+            options.match.mirror = choice_of(name, value, mirror_words);
         } else if (name == "scope") {
-            options.match.scope = choice_of<ScopeChoice>(
-                name, value,
-                {{"auto", ScopeChoice::automatic}, {"global", ScopeChoice::global}, {"partial", ScopeChoice::partial}});
+            options.match.scope = choice_of(name, value, scope_words);
         } else if (name == "initial") {
             options.match.initial = transform_of(name, value);
         } else if (name == "pairs") {

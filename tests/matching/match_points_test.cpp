@@ -56,6 +56,23 @@ TEST_F(MatchPoints, ExactPointsEndExactlyOnTheSurface) {
     EXPECT_LT(pose_error(cloud, alignment.original_suspect, truth, model.size()), 1e-10);
 }
 
+TEST_F(MatchPoints, WrongPairsAreLeftOutAndNamed) {
+    const SimilarityTransform truth = support::random_similarity(8, 0.7, true);
+    const PointCloud cloud = scan(model, 1500, 1.0, 3e-4, truth, 12);
+    MatchOptions options;
+    for (int k = 0; k < 10; ++k) {
+        const Vector3& p = cloud.points[140 * k];
+        // The second and the ninth were taken for others.
+        options.pairs.emplace_back(truth.apply(k == 1 || k == 8 ? cloud.points[1400 - 140 * k] : p), p);
+    }
+    const Alignment alignment = match(original, prepare(cloud), options);
+    ASSERT_EQ(alignment.status, AlignmentStatus::found) << alignment.why;
+    EXPECT_TRUE(alignment.original_suspect.mirrored);
+    EXPECT_NE(alignment.why.find("without number 2, 9, which do not agree"), std::string::npos) << alignment.why;
+    ASSERT_EQ(alignment.given_pairs.size(), 10u);
+    for (int k = 0; k < 10; ++k) EXPECT_EQ(alignment.given_pairs[k].outlier, k == 1 || k == 8) << k;
+}
+
 TEST_F(MatchPoints, MeshesAndPointsAgainstPoints) {
     const SimilarityTransform truth = support::random_similarity(7, 1.7, false);
     const PointCloud mesh =

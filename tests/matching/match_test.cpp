@@ -418,7 +418,7 @@ TEST(Match, BoxesMatchByFacesAndByMomentsInAllTheirSymmetries) {
         EXPECT_EQ(cube.symmetries.size(), 47u);
     }
 
-    // Two moments of a prism are equal, so its turns are found by sampling: n turns, turned over too, and their mirrors.
+    // Two moments of a prism are equal, so its turns are sampled: n of them, turned over too, and their mirrors.
     for (const int n : {3, 5, 6}) {
         const Alignment turned = match_models(prism(n, 2.0, 1.3, identity), prism(n, 2.0, 1.3, place.inverse()),
                                               {.method = MethodChoice::moments});

@@ -181,6 +181,33 @@ TEST(UmbilicMethods, APieceAmongForeignUmbilicsIsFound) {
     EXPECT_LT(pose_error(alignment.original_suspect, truth, suspect, original_model), 1e-8);
 }
 
+TEST(UmbilicMethods, ErrorsOfInvariantsWidenTheTolerance) {
+    UmbilicMark a, b;
+    a.alpha = b.alpha = {1.0, 0.0};
+    a.delta = 0.2;
+    b.delta = 0.6;
+    EXPECT_FALSE(may_correspond(a, b, 0.15));
+    a.delta_error = 0.1;
+    EXPECT_FALSE(may_correspond(a, b, 0.15));
+    b.delta_error = 0.16;
+    EXPECT_TRUE(may_correspond(a, b, 0.15));
+    b.zeta = {0.0, 0.3};
+    EXPECT_FALSE(may_correspond(a, b, 0.15));
+    b.zeta_error = 0.2;
+    EXPECT_TRUE(may_correspond(a, b, 0.15));
+    b.kappa = 1.0;  // bend pi / 4 instead of 0
+    EXPECT_FALSE(may_correspond(a, b, 0.15));
+    a.bend_error = 0.7;
+    EXPECT_TRUE(may_correspond(a, b, 0.15));
+
+    // Errors of computed umbilics are those of rounding.
+    const Model model = model_of({support::smooth_bicubic(10, 3)});
+    for (const UmbilicMark& mark : umbilic_marks(model, prepare(model, quick()).features)) {
+        EXPECT_GT(mark.bend_error, 0.0);
+        EXPECT_LT(mark.bend_error, 1e-3);
+    }
+}
+
 TEST(UmbilicMethods, SteadyUmbilicsCountMore) {
     // Umbilics displaced by normal errors of a standard deviation of 0.01 over their steadiness.
     std::mt19937 random(3);

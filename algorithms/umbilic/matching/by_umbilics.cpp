@@ -61,13 +61,8 @@ std::vector<Pair> corresponding(const std::vector<UmbilicMark>& original, const 
                                 double tolerance) {
     std::vector<Pair> pairs;
     for (int j = 0; j < static_cast<int>(suspect.size()); ++j)
-        for (int i = 0; i < static_cast<int>(original.size()); ++i) {
-            const UmbilicMark &a = original[i], &b = suspect[j];
-            if (std::abs(a.delta - b.delta) <= tolerance + a.delta_error + b.delta_error &&
-                std::abs(a.zeta - b.zeta) <= tolerance + a.zeta_error + b.zeta_error &&
-                std::abs(a.bend() - b.bend()) <= tolerance + a.bend_error + b.bend_error)
-                pairs.push_back({i, j});
-        }
+        for (int i = 0; i < static_cast<int>(original.size()); ++i)
+            if (may_correspond(original[i], suspect[j], tolerance)) pairs.push_back({i, j});
     return pairs;
 }
 
@@ -124,6 +119,12 @@ bool better(const Hypothesis& a, const Hypothesis& b) {
 }
 
 }  // namespace
+
+bool may_correspond(const UmbilicMark& a, const UmbilicMark& b, double tolerance) {
+    return std::abs(a.delta - b.delta) <= tolerance + a.delta_error + b.delta_error &&
+           std::abs(a.zeta - b.zeta) <= tolerance + a.zeta_error + b.zeta_error &&
+           std::abs(a.bend() - b.bend()) <= tolerance + a.bend_error + b.bend_error;
+}
 
 std::vector<SimilarityTransform> poses_from_pair(const UmbilicMark& original, const UmbilicMark& suspect,
                                                  double misfit) {

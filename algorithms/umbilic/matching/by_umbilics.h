@@ -14,6 +14,10 @@
 
 namespace umbilic {
 
+/// True if two umbilics agree in the scale-free invariants delta, zeta and bend within `tolerance` and their own
+/// errors.
+bool may_correspond(const UmbilicMark& original, const UmbilicMark& suspect, double tolerance);
+
 /// Similarities that carry one suspect umbilic onto one of the original's: point, normal and scale are unique
 /// (scale = sqrt(|C_suspect| / |C_original|)), and so is the rotation unless beta is small; then up to three differ
 /// little in how well the cubics agree. Only those whose cubics differ by less than `misfit` of their norm.
@@ -28,9 +32,9 @@ std::optional<SimilarityTransform> pose_from_pairs(std::span<const std::pair<Umb
                                                    const SimilarityTransform& near, double length, bool free_scale);
 
 /// Poses from the umbilics of both models (thesis 4.6.1, 4.7.1, steps 100-110; NUMERICS in docs/numerics.md): pairs
-/// that agree in the scale-free invariants delta, zeta and bend within the tolerance and their own errors, under each
-/// hypothesis of hand and orientation that holds for the whole model; one pair gives a whole similarity, and those that
-/// carry most umbilics onto partners come first, improved by least squares over them. Throws Cancelled.
+/// that may correspond, under each hypothesis of hand and orientation that holds for the whole model; one pair gives a
+/// whole similarity, and those that carry most umbilics onto partners come first, improved by least squares over them.
+/// Throws Cancelled.
 Proposals poses_by_umbilics(const PreparedModel& original, const PreparedModel& suspect, const ScaleChoice& scale,
                             MirrorChoice mirror, double invariant_tolerance, const Progress& progress = {});
 
