@@ -162,6 +162,7 @@ struct LineRun {
     Stepper stepper;
     double step = 0.0;
     Vector3 first_point, first_tangent;
+    int asked = 1;  ///< multiple of stop_spacing at which to ask next whether to stop
 
     const NurbsSurface& surface() const { return tracer.face_.surface; }
 
@@ -389,6 +390,19 @@ struct LineRun {
         return false;
     }
 
+    /// Whether the line shall end, by what is seen on its last step.
+    bool stops() {
+        if (!options.stop || !(options.stop_spacing > 0.0) || line.steps.empty()) return false;
+        const TracedStep& last = line.steps.back();
+        for (; asked * options.stop_spacing <= last.s + last.length; ++asked) {
+            const double share = std::clamp((asked * options.stop_spacing - last.s) / last.length, 0.0, 1.0);
+            if (!options.stop(tracer.piece_value(last.piece, last.at(share), family))) continue;
+            line.stopped = asked * options.stop_spacing;
+            return true;
+        }
+        return false;
+    }
+
     /// Ends the line where its last step passes its first point.
     bool closes() {
         if (!options.close || line.steps.size() < 2) return false;
@@ -439,7 +453,7 @@ TracedLine LineTracer::trace(const Vector2& start, CurvatureFamily family, const
         if (!run.advance()) break;
         const bool within = run.leave_piece();
         if (run.crosses_loop() || run.closes() || !within) break;
-        if (options.stop && options.stop(run.here)) break;
+        if (run.stops()) break;
         if (indeterminate(run.here)) {
             run.line.ended = CurveEnd::umbilic;
             break;

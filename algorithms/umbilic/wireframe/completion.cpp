@@ -44,6 +44,8 @@ constexpr double greatest_radius = 0.983;
 /// Two triangles without a part of a line between them become a quadrilateral if its corners differ from right angles
 /// by less than this.
 constexpr double greatest_corner_bend = 0.8;
+/// Of triangles, or crossings, that differ by less than this share, the one that the face's frame prefers comes first.
+constexpr double preference_share = 1e-3;
 constexpr int most_corrections = 20;
 constexpr double relative_correction = 1e-12;
 /// Points of an edge between its ends.
@@ -82,10 +84,11 @@ double corner_bend(const std::array<Vector3, 4>& corners) {
 
 class FaceCompletion {
 public:
-    FaceCompletion(const Face& face, const FaceBorder& border, const LineNet& net, const LineField& field,
-                   const CompletionOptions& options, const Progress& progress)
+    FaceCompletion(const Face& face, const FaceBorder& border, const FaceFrame& frame, const LineNet& net,
+                   const LineField& field, const CompletionOptions& options, const Progress& progress)
         : face_(face),
           border_(border),
+          frame_(frame),
           net_(net),
           field_(field),
           options_(options),
@@ -127,6 +130,7 @@ private:
 
     const Face& face_;
     const FaceBorder& border_;
+    const FaceFrame& frame_;
     const LineNet& net_;
     const LineField& field_;
     const CompletionOptions& options_;
@@ -278,8 +282,10 @@ void FaceCompletion::add_net() {
     // Near umbilics lines cross in a small space: the crossing that is nearer to the start stays.
     std::vector<int> order(net_.nodes.size());
     std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](int a, int b) { return net_.nodes[a].distance < net_.nodes[b].distance; });
+    const auto rank = [&](int i) {
+        return net_.nodes[i].distance * (1 - preference_share * frame_.preference(net_.nodes[i].point));
+    };
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return rank(a) < rank(b); });
     PointCells<int> kept(options_.step);
     for (const int i : order) {
         const NetNode& node = net_.nodes[i];
@@ -366,10 +372,10 @@ std::optional<Vector2> FaceCompletion::edge_middle(int slot) const {
 bool FaceCompletion::refine() {
     const double step = options_.step;
     struct Entry {
-        double radius;
+        double rank;
         int triangle;
         unsigned version;
-        bool operator<(const Entry& o) const { return std::tie(radius, o.triangle) < std::tie(o.radius, triangle); }
+        bool operator<(const Entry& o) const { return std::tie(rank, o.triangle) < std::tie(o.rank, triangle); }
     };
     std::priority_queue<Entry> queue;
     const auto look = [&](int triangle) {
@@ -378,7 +384,9 @@ bool FaceCompletion::refine() {
                   c = mesh_.slot(3 * triangle + 2).vertex;
         if (a == b || b == c || c == a) return;
         const double radius = circumradius(mesh_.points()[a], mesh_.points()[b], mesh_.points()[c]);
-        if (radius > greatest_radius * step) queue.push({radius, triangle, mesh_.version(triangle)});
+        if (!(radius > greatest_radius * step)) return;
+        const Vector3 middle = (mesh_.points()[a] + mesh_.points()[b] + mesh_.points()[c]) / 3;
+        queue.push({radius * (1 + preference_share * frame_.preference(middle)), triangle, mesh_.version(triangle)});
     };
     for (int t = 0; t < mesh_.triangle_count(); ++t) look(t);
     mesh_.take_changed();
@@ -617,7 +625,7 @@ Completion FaceCompletion::run() {
     result.wireframe.face = face_.number;
     if (!build_border(result)) return result;
     add_net();
-    mesh_.improve();
+    mesh_.improve(frame_.lean);
     remove_seam();
     const bool whole = refine();
     result.wireframe = assemble();
@@ -627,9 +635,9 @@ Completion FaceCompletion::run() {
 
 }  // namespace
 
-Completion complete(const Face& face, const FaceBorder& border, const LineNet& net, const LineField& field,
-                    const CompletionOptions& options, const Progress& progress) {
-    return FaceCompletion(face, border, net, field, options, progress).run();
+Completion complete(const Face& face, const FaceBorder& border, const FaceFrame& frame, const LineNet& net,
+                    const LineField& field, const CompletionOptions& options, const Progress& progress) {
+    return FaceCompletion(face, border, frame, net, field, options, progress).run();
 }
 
 }  // namespace umbilic

@@ -13,6 +13,9 @@ namespace {
 
 /// A flip must make the least angle greater by more than this (radians): rounding never flips back and forth.
 constexpr double least_gain = 1e-9;
+/// So much of the least angle (radians) an edge along the preferred direction may cost: more than the accuracy of
+/// nodes.
+constexpr double preference_share = 1e-3;
 
 double angle(const Vector3& a, const Vector3& b) {
     return std::atan2(a.cross(b).norm(), a.dot(b));
@@ -133,6 +136,13 @@ double FaceTriangulation::least_angle(int a, int b, int c) const {
     return std::min({angle(q - p, r - p), angle(r - q, p - q), angle(p - r, q - r)});
 }
 
+/// Square of the cosine between an edge and the preferred direction.
+double FaceTriangulation::along_preferred(int a, int b) const {
+    const Vector3 way = points_[b] - points_[a];
+    const double along = way.dot(preferred_), length = way.squaredNorm();
+    return length > 0.0 ? along * along / length : 0.0;
+}
+
 bool FaceTriangulation::should_flip(int slot) const {
     const int twin = slots_[slot].twin;
     if (twin < 0 || slots_[slot].fixed || twin / 3 == slot / 3 || !convex(slot)) return false;
@@ -146,8 +156,9 @@ bool FaceTriangulation::should_flip(int slot) const {
         return in_circle(p, q, r, far, metric);
     }
     if (a == b || b == c || c == a || d == b || d == c || a == d) return false;
-    return std::min(least_angle(a, b, d), least_angle(a, d, c)) >
-           std::min(least_angle(a, b, c), least_angle(d, c, b)) + least_gain;
+    const double gain =
+        std::min(least_angle(a, b, d), least_angle(a, d, c)) - std::min(least_angle(a, b, c), least_angle(d, c, b));
+    return gain + preference_share * (along_preferred(a, d) - along_preferred(b, c)) > least_gain;
 }
 
 void FaceTriangulation::legalise(std::vector<int>& stack) {
@@ -163,8 +174,9 @@ void FaceTriangulation::legalise(std::vector<int>& stack) {
     }
 }
 
-void FaceTriangulation::improve() {
+void FaceTriangulation::improve(const Vector3& preferred) {
     in_space_ = true;
+    preferred_ = preferred;
     std::vector<int> stack;
     for (int s = slot_count() - 1; s >= 0; --s)
         if (slots_[s].vertex >= 0 && slots_[s].twin > s) stack.push_back(s);
@@ -373,6 +385,7 @@ std::optional<FaceTriangulation::Conflict> FaceTriangulation::build(const Loops&
     in_space_ = false;
     aspect_ = aspect;
     metric_ = nullptr;
+    preferred_ = Vector3::Zero();
     const int count = static_cast<int>(loops.corners.size());
     // Outer triangle.
     slot_of_.assign(3, -1);

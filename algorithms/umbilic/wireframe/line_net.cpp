@@ -23,6 +23,8 @@ namespace {
 /// A line ends where another one of its family is nearer than this, and may begin where none is nearer than that.
 constexpr double least_distance = 0.537;
 constexpr double least_start_distance = 0.713;
+/// A line is compared with parts of itself that are farther away along it; no multiple of the samples' distance.
+constexpr double own_distance = 2.113;
 /// A line without a crossing for longer than this gets a new one: at its end, or in the middle between two.
 constexpr double longest_end = 1.313;
 constexpr double longest_gap = 1.672;
@@ -47,6 +49,8 @@ constexpr int most_corrections = 12;
 constexpr double relative_correction = 1e-11;
 /// A crossing this little beyond the end of a line, relative to the step, is on it.
 constexpr double relative_end = 1e-6;
+/// Crossings of two lines that are nearer along them than this are one.
+constexpr double same_crossing = 0.01;
 
 /// Lengths that differ by less than this share of the step are equal.
 constexpr double tie = 1e-4;
@@ -81,6 +85,7 @@ struct Line {
     bool opened = false;              ///< was closed and has been cut
     std::vector<Seed> seeds;          ///< where lines that cross it are missing
     bool changed = true;              ///< since `seeds` were found
+    double overlap = 0.0;             ///< mm: a closed line is followed so far beyond its ends
 
     /// Parameters at the signed arc length s; a little beyond its ends the line goes straight on.
     Vector2 at(double s) const {
@@ -100,7 +105,9 @@ private:
     std::tuple<const TracedStep*, double, double> locate(double s) const {
         const TracedLine& part = on_ahead(s) ? ahead : behind;
         double t = on_ahead(s) ? s : -s;
-        if (closed || opened) t -= part.length * std::floor(t / part.length);
+        // The ends of a closed line meet only within the accuracy of its steps: about its seed it goes on from there.
+        const bool about_seed = t > -overlap && t < part.length + overlap;
+        if ((closed || opened) && !about_seed) t -= part.length * std::floor(t / part.length);
         const TracedStep& step = part.steps[part.step_at(t)];
         const double x = std::clamp((t - step.s) / step.length, 0.0, 1.0);
         return {&step, x, t - step.s - x * step.length};
@@ -197,6 +204,15 @@ void NetBuilder::sample(Line& line) const {
         line.samples.push_back({s, tracer_.wrapped(p), value.point,
                                 (value.r_u * rate.x() + value.r_v * rate.y()).normalized(), value.normal});
     };
+    if (line.closed) {
+        // The same to both sides of the seed, whichever way the line was traced.
+        const double half = 0.5 * line.high;
+        const int each = static_cast<int>(std::floor(half / spacing));
+        for (int i = 0; i <= each; ++i) add(i * spacing);
+        if (half - each * spacing > 0.5 * spacing) add(half);
+        for (int i = each; i >= 0; --i) add(line.high - i * spacing);
+        return;
+    }
     const int below = static_cast<int>(std::floor(-line.low / spacing)),
               above = static_cast<int>(std::floor(line.high / spacing));
     if (line.low < -below * spacing - 1e-9 * step_) add(line.low);
@@ -210,24 +226,29 @@ std::optional<Line> NetBuilder::trace(const Seed& seed) const {
     const auto as_sample = [](const FieldValue& v) -> Sample { return {0.0, {}, v.point, v.tangent, v.normal}; };
     if (crowded(as_sample(value), seed.family, least_start_distance * step_)) return std::nullopt;
     TraceOptions options = trace_options();
-    // The integration need not go on where the line will be cut anyway.
-    int near = 0;
+    // The integration need not go on where the line will be cut anyway, nor, along an axis, where lines of that family
+    // meet and one would go straight over. That is asked at the line's samples, whatever the steps, which depend on
+    // knots.
+    options.stop_spacing = sample_share * step_;
+    Vector3 before = value.normal;
     options.stop = [&](const FieldValue& v) {
-        near = crowded(as_sample(v), seed.family, 0.8 * least_distance * step_) ? near + 1 : 0;
-        return near > 1;
+        const double turn = std::atan2(before.cross(v.normal).norm(), before.dot(v.normal));
+        before = v.normal;
+        return crowded(as_sample(v), seed.family, least_distance * step_) || (tracer_.along_axis() && v.spread < turn);
     };
     Line line;
     line.family = seed.family;
     line.distance = seed.distance;
+    line.overlap = same_crossing * step_;
     line.ahead = tracer_.trace(seed.parameters, seed.family, seed.one_way.value_or(value.tangent), options, progress_);
     line.closed = line.ahead.ended == CurveEnd::closed;
-    near = 0;
+    before = value.normal;
     if (!seed.one_way && !line.closed)
         line.behind = tracer_.trace(seed.parameters, seed.family, -value.tangent, options, progress_);
     // All of the line may lie behind: then it is turned around.
     if (line.ahead.steps.empty()) std::swap(line.ahead, line.behind);
-    line.high = line.ahead.steps.empty() ? 0.0 : line.ahead.length;
-    line.low = line.behind.steps.empty() ? 0.0 : -line.behind.length;
+    line.high = line.ahead.steps.empty() ? 0.0 : line.ahead.stopped.value_or(line.ahead.length);
+    line.low = line.behind.steps.empty() ? 0.0 : -line.behind.stopped.value_or(line.behind.length);
     if (!(line.high - line.low > sample_share * step_)) return std::nullopt;
     sample(line);
     return line;
@@ -237,33 +258,38 @@ std::optional<Line> NetBuilder::trace(const Seed& seed) const {
 /// was there before. What reaches a place first does not depend on the order of the lines.
 void NetBuilder::grow(std::vector<Line>& lines) const {
     const double distance = least_distance * step_;
+    // Samples by their way along the line from the seed; a closed line grows to both sides as far as its middle.
     struct Event {
         double pace;
         int line, sample;
+        bool ahead;
     };
     std::vector<Event> events;
-    for (std::size_t l = 0; l < lines.size(); ++l)
-        for (std::size_t i = 0; i < lines[l].samples.size(); ++i) {
-            const double s = lines[l].samples[i].s;
-            // A closed line grows to both sides.
-            const double pace = lines[l].closed ? std::min(s, lines[l].high - s) : std::abs(s);
-            events.push_back({pace, static_cast<int>(l), static_cast<int>(i)});
-        }
-    std::stable_sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.pace < b.pace; });
+    // Where each side of a line ends: the last sample on it.
     struct Ends {
-        int low, high;  ///< last samples reached
-        bool low_open = true, high_open = true;
+        int high, low;
+        bool high_cut = false, low_cut = false;
     };
     std::vector<Ends> ends;
-    std::vector<int> origin;
-    for (const Line& line : lines) {
-        const auto at =
-            std::find_if(line.samples.begin(), line.samples.end(), [](const Sample& x) { return x.s >= 0.0; });
-        origin.push_back(static_cast<int>(at - line.samples.begin()));
-        ends.push_back({0, static_cast<int>(line.samples.size()) - 1});
+    for (std::size_t l = 0; l < lines.size(); ++l) {
+        const int count = static_cast<int>(lines[l].samples.size());
+        const auto is_ahead = [&](const Sample& x) {
+            return x.s >= 0.0 && !(lines[l].closed && x.s > 0.5 * lines[l].high);
+        };
+        Ends& own = ends.emplace_back(Ends{0, count - 1});
+        for (int i = 0; i < count; ++i) {
+            const double s = lines[l].samples[i].s;
+            const bool ahead = is_ahead(lines[l].samples[i]);
+            if (ahead)
+                own.high = std::max(own.high, i);
+            else
+                own.low = std::min(own.low, i);
+            events.push_back(
+                {lines[l].closed && !ahead ? lines[l].high - s : std::abs(s), static_cast<int>(l), i, ahead});
+        }
     }
+    std::stable_sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.pace < b.pace; });
     std::array<SampleGrid, 2> grown = {SampleGrid(cell_side * step_), SampleGrid(cell_side * step_)};
-    std::vector<char> cut(lines.size(), 0);
     for (std::size_t begin = 0; begin < events.size();) {
         std::size_t end = begin;
         while (end < events.size() && events[end].pace <= events[begin].pace + tie * step_) ++end;
@@ -273,27 +299,25 @@ void NetBuilder::grow(std::vector<Line>& lines) const {
             const Line& line = lines[event.line];
             const Sample& sample = line.samples[event.sample];
             Ends& own = ends[event.line];
-            if (event.sample < own.low || event.sample > own.high) continue;
-            bool stop = event.sample != origin[event.line] && crowded(sample, line.family, distance);
-            grown[index(line.family)].near(sample.point, distance + sample_reach * step_,
-                                           [&](const SampleEntry& entry) {
-                                               if (stop) return;
-                                               const Line& other = lines[entry.line];
-                                               if (entry.line == event.line) {
-                                                   double between = std::abs(other.samples[entry.sample].s - sample.s);
-                                                   if (line.closed) between = std::min(between, line.high - between);
-                                                   if (between < 2 * step_) return;
-                                               }
-                                               stop = near(sample, other, entry.sample, distance);
-                                           });
+            if (event.ahead ? event.sample > own.high : event.sample < own.low) continue;
+            const bool is_seed = event.pace <= tie * step_;
+            bool stop = !is_seed && crowded(sample, line.family, distance);
+            if (!is_seed)
+                grown[index(line.family)].near(
+                    sample.point, distance + sample_reach * step_, [&](const SampleEntry& entry) {
+                        if (stop) return;
+                        const Line& other = lines[entry.line];
+                        if (entry.line == event.line) {
+                            double between = std::abs(other.samples[entry.sample].s - sample.s);
+                            if (line.closed) between = std::min(between, line.high - between);
+                            if (between < own_distance * step_) return;
+                        }
+                        stop = near(sample, other, entry.sample, distance);
+                    });
             reached.push_back(event);
             if (!stop) continue;
-            const bool above = event.sample > origin[event.line] && !(line.closed && sample.s > 0.5 * line.high);
-            cut[event.line] = 1;
-            if (above)
-                own.high = std::min(own.high, event.sample);
-            else
-                own.low = std::max(own.low, event.sample);
+            (event.ahead ? own.high : own.low) = event.sample;
+            (event.ahead ? own.high_cut : own.low_cut) = true;
         }
         for (const Event& event : reached)
             grown[index(lines[event.line].family)].add(lines[event.line].samples[event.sample].point,
@@ -302,24 +326,23 @@ void NetBuilder::grow(std::vector<Line>& lines) const {
     }
     for (std::size_t l = 0; l < lines.size(); ++l) {
         Line& line = lines[l];
-        if (line.closed && cut[l]) {
-            // Two open branches remain: what lies beyond the far cut is reached from the seed the other way.
-            line.opened = true;
-            std::vector<Sample> samples;
-            for (int i = ends[l].low > 0 ? ends[l].low : static_cast<int>(line.samples.size());
-                 i < static_cast<int>(line.samples.size()); ++i) {
-                samples.push_back(line.samples[i]);
-                samples.back().s -= line.ahead.length;
-            }
-            if (!samples.empty() && samples.back().s > -1e-9 * step_) samples.pop_back();
-            const int last = std::min<int>(ends[l].high, static_cast<int>(line.samples.size()) - 1);
-            for (int i = 0; i <= last; ++i) samples.push_back(line.samples[i]);
-            line.samples = std::move(samples);
-            line.closed = false;
-        } else {
-            line.samples =
-                std::vector<Sample>(line.samples.begin() + ends[l].low, line.samples.begin() + ends[l].high + 1);
+        const Ends& own = ends[l];
+        const std::vector<Sample> all = std::move(line.samples);
+        line.samples.clear();
+        if (line.closed && !own.high_cut && !own.low_cut) {
+            line.samples = all;
+            continue;
         }
+        // Of a closed line two branches remain; the sample after a whole turn is the seed's.
+        for (int i = own.low; i < static_cast<int>(all.size()); ++i) {
+            Sample sample = all[i];
+            if (line.closed) sample.s -= line.high;
+            if (sample.s < -1e-9 * step_) line.samples.push_back(sample);
+        }
+        for (int i = 0; i <= own.high; ++i)
+            if (all[i].s >= 0.0) line.samples.push_back(all[i]);
+        line.opened = line.closed;
+        line.closed = false;
         line.low = line.samples.front().s;
         line.high = line.samples.back().s;
     }
@@ -379,7 +402,7 @@ std::optional<std::pair<double, double>> NetBuilder::crossing(const Line& a, dou
         sb -= correction.y();
         if (correction.norm() > relative_correction * step_) continue;
         const auto within = [&](const Line& line, double s) {
-            const double slack = line.closed ? 0.01 * step_ : relative_end * step_;
+            const double slack = line.closed ? same_crossing * step_ : relative_end * step_;
             return s >= line.low - slack && s <= line.high + slack;
         };
         return within(a, sa) && within(b, sb) ? std::optional(std::pair(sa, sb)) : std::nullopt;
@@ -389,13 +412,13 @@ std::optional<std::pair<double, double>> NetBuilder::crossing(const Line& a, dou
 
 void NetBuilder::add_crossing(int a, double sa, int b, double sb) {
     // A crossing is found from the segments on both sides of it; closed lines meet theirs at both ends.
+    for (const auto& [line, at] : {std::pair(&lines_[a], &sa), std::pair(&lines_[b], &sb)})
+        if (line->closed && *at > line->high - same_crossing * step_) *at -= line->high;
     const auto known = [&](const Line& line, double s) {
-        const auto above = line.crossings.lower_bound(s - 0.01 * step_);
-        return above != line.crossings.end() && above->first < s + 0.01 * step_;
+        const auto above = line.crossings.lower_bound(s - same_crossing * step_);
+        return above != line.crossings.end() && above->first < s + same_crossing * step_;
     };
     if (known(lines_[a], sa) && known(lines_[b], sb)) return;
-    if (lines_[a].closed && sa > lines_[a].high - 0.01 * step_ && known(lines_[a], sa - lines_[a].high)) return;
-    if (lines_[b].closed && sb > lines_[b].high - 0.01 * step_ && known(lines_[b], sb - lines_[b].high)) return;
     const Vector2 p = tracer_.wrapped(lines_[a].at(sa));
     const int node = static_cast<int>(net_.nodes.size());
     const auto distance = [](const Line& line, double s) {
@@ -446,7 +469,7 @@ std::vector<Seed> NetBuilder::seeds_of(int number) const {
         if (line.closed) s -= line.high * std::floor(s / line.high);
         if (s < line.low || s > line.high) return;
         for (const double refused : line.refused)
-            if (std::abs(refused - s) < 0.01 * step_) return;
+            if (std::abs(refused - s) < same_crossing * step_) return;
         const double way = line.closed ? std::min(s, line.high - s) : std::abs(s);
         seeds.push_back(
             {line.distance + way, tracer_.wrapped(line.at(s)), other(line.family), std::nullopt, number, s});
