@@ -398,6 +398,7 @@ struct LineRun {
             const double share = std::clamp((asked * options.stop_spacing - last.s) / last.length, 0.0, 1.0);
             if (!options.stop(tracer.piece_value(last.piece, last.at(share), family))) continue;
             line.stopped = asked * options.stop_spacing;
+            line.ended = CurveEnd::length;
             return true;
         }
         return false;
@@ -452,8 +453,8 @@ TracedLine LineTracer::trace(const Vector2& start, CurvatureFamily family, const
         }
         if (!run.advance()) break;
         const bool within = run.leave_piece();
-        if (run.crosses_loop() || run.closes() || !within) break;
-        if (run.stops()) break;
+        const bool ends = run.crosses_loop() || run.closes() || !within;
+        if (run.stops() || ends) break;
         if (indeterminate(run.here)) {
             run.line.ended = CurveEnd::umbilic;
             break;
