@@ -33,6 +33,8 @@ constexpr double forward_cosine = 0.7;
 constexpr int trim_samples = 4, halvings = 50;
 /// Steps of Newton's method for the length of the last step of a line or piece.
 constexpr int cut_corrections = 3;
+/// They end at this share of the error allowed in a step.
+constexpr double relative_cut = 1e-4;
 /// A line meets a knot line, and does not run along it, if the sine of the angle between them is above this.
 constexpr double meeting_sine = 1e-6;
 /// Rounding of a parameter relative to its domain.
@@ -253,6 +255,7 @@ struct LineRun {
         tangent = start_tangent;
         piece = last.piece;
         const State x0 = state(last.start), d0 = state(last.start_rate);
+        const double enough = std::max(rounding * h, relative_cut * options.tolerance);
         for (int i = 0; i < cut_corrections; ++i) {
             State x1, d1, middle;
             stepper.do_step([&](const State& at, State& rate, double) { rate = state(rates(vector(at))); }, x0, d0,
@@ -263,7 +266,7 @@ struct LineRun {
             last.end_rate = vector(d1);
             last.middle = vector(middle);
             const double correction = excess(last.end) / slope(last.end_rate);
-            if (!(std::abs(correction) < 0.1 * h) || std::abs(correction) <= rounding * h) break;
+            if (!(std::abs(correction) < 0.1 * h) || std::abs(correction) <= enough) break;
             h -= correction;
         }
         s = last.s + last.length;

@@ -14,6 +14,7 @@ namespace umbilic {
 struct CompletionOptions {
     double step = 0.0;
     int most_nodes = 0;
+    bool drawn = true;  ///< with points of geodesics and the coverage
 };
 
 struct Completion {

@@ -187,6 +187,7 @@ void FaceCompletion::measure(FaceWireframe& wireframe, const std::vector<int>& n
         const Vector3 &a = points[s[0].vertex], &b = points[s[1].vertex], &c = points[s[2].vertex];
         const double weight = 0.5 * (b - a).cross(c - a).norm() / cell_samples.size();
         for (const auto& w : cell_samples) {
+            if (!options_.drawn) break;
             double x = 0.0, y = 0.0;
             for (int k = 0; k < 3; ++k) {
                 x += w[k] * static_cast<double>(s[k].corner.x);
@@ -211,7 +212,7 @@ void FaceCompletion::measure(FaceWireframe& wireframe, const std::vector<int>& n
         for (const FaceTriangulation::Slot& corner : s)
             if (inner(corner))
                 wireframe.nodes[node_of[corner.vertex]].area += weight * cell_samples.size() / inner_corners;
-        for (int k = 0; k < 3; ++k) {
+        for (int k = 0; options_.drawn && k < 3; ++k) {
             const FaceTriangulation::Slot &from = s[(k + 1) % 3], &to = s[(k + 2) % 3];
             if (from.vertex > to.vertex) continue;
             const auto found = edge_of.find({node_of[from.vertex], node_of[to.vertex]});
@@ -235,7 +236,7 @@ void FaceCompletion::measure(FaceWireframe& wireframe, const std::vector<int>& n
             }
         }
     }
-    wireframe.coverage = area > 0.0 ? covered / area : 1.0;
+    if (options_.drawn) wireframe.coverage = area > 0.0 ? covered / area : 1.0;
 }
 
 }  // namespace umbilic

@@ -129,7 +129,7 @@ LineNet NetBuilder::build(const NetStart& start) {
     for (const NetLine& line : lines_) {
         const auto join = [&](double s, int from, double t, int to) {
             NetEdge edge{from, to, line.family, t - s};
-            for (int k = 1; k <= between_points; ++k) {
+            for (int k = 1; options_.drawn && k <= between_points; ++k) {
                 double at = s + (t - s) * k / (between_points + 1);
                 if (line.closed && at > line.high) at -= line.high;
                 const Vector2 p = tracer_.wrapped(line.at(at));

@@ -100,10 +100,13 @@ Completion mesh(const Face& face, const FaceBorder& border, const FaceFrame& fra
         if (const std::optional<NetStart> start = net_start(face, border, frame, umbilics, step)) {
             field = start->field;
             const double lines = 16 + options.most_nodes * std::sqrt(face.area) / step;
-            net = line_net(LineTracer(face, field), *start,
-                           {.step = step, .most_lines = static_cast<std::size_t>(std::min(lines, 1e6))}, progress);
+            net = line_net(
+                LineTracer(face, field), *start,
+                {.step = step, .most_lines = static_cast<std::size_t>(std::min(lines, 1e6)), .drawn = options.drawn},
+                progress);
         }
-    return complete(face, border, frame, net, field, {.step = step, .most_nodes = budget(face, border, options, step)},
+    return complete(face, border, frame, net, field,
+                    {.step = step, .most_nodes = budget(face, border, options, step), .drawn = options.drawn},
                     progress);
 }
 
