@@ -8,6 +8,7 @@
 #include <cli/commands.h>
 #include <cli/console.h>
 #include <cli/exit_status.h>
+#include <cli/finite_numbers.h>
 #include <cli/loading.h>
 #include <cli/match_options.h>
 #include <report/output.h>
@@ -95,7 +96,7 @@ void add_compare(CLI::App& application, Session& session, Command& command) {
     const auto words = std::make_shared<CompareWords>();
     add_match_options(*subcommand, words->match);
     const auto tolerance = [&](const char* names, std::optional<double>& value, const char* meaning) {
-        subcommand->add_option(names, value, meaning)->check(CLI::PositiveNumber)->group("Tolerances");
+        subcommand->add_option(names, value, meaning)->check(finite_number(false))->group("Tolerances");
     };
     tolerance("--distance", words->match.options.tolerances.distance, "Weak test, mm of the original");
     tolerance("--kappa", words->match.options.tolerances.kappa, "Intermediate test, curvatures, 1/mm of the original");

@@ -131,8 +131,10 @@ void add_lines_of_curvature(CLI::App& curve, Session& session, Command& command)
             CurveResult result{.kind = "lines-of-curvature", .model = &read.model};
             for (const CurvatureFamily family : {CurvatureFamily::maximum, CurvatureFamily::minimum})
                 if (options->family == "both" || options->family == name(family))
-                    result.curves.push_back(
-                        {name(family), line_of_curvature(face, start, family, line, session.progress.part(0.8, 1.0))});
+                    result.curves.push_back({name(family), as_asked(options->path, [&] {
+                                                 return line_of_curvature(face, start, family, line,
+                                                                          session.progress.part(0.8, 1.0));
+                                             })});
             return finish(session, *options, result);
         };
     });
@@ -184,8 +186,10 @@ void add_geodesic(CLI::App& curve, Session& session, Command& command) {
                 GeodesicOptions geodesic_options{.spacing = options->spacing, .joins = joined.get()};
                 if (options->tolerance) geodesic_options.tolerance = *options->tolerance;
                 const Vector3 direction = three_numbers("--direction", options->direction);
-                result.curves.push_back(
-                    {"geodesic", geodesic(face, from, direction, *options->length, geodesic_options, progress)});
+                result.curves.push_back({"geodesic", as_asked(options->path, [&] {
+                                             return geodesic(face, from, direction, *options->length, geodesic_options,
+                                                             progress);
+                                         })});
                 return finish(session, *options, result);
             }
             const Face& last = options->to_face > 0 ? chosen_face(model, options->to_face, "--to-face") : face;
@@ -193,8 +197,10 @@ void add_geodesic(CLI::App& curve, Session& session, Command& command) {
             GeodesicSearchOptions search{
                 .spacing = options->spacing, .joins = joined.get(), .longest = options->longest, .most = options->most};
             if (options->tolerance) search.tolerance = *options->tolerance;
-            GeodesicSearch found = geodesics_between(model, {face.number, from.x(), from.y()},
-                                                     {last.number, end.x(), end.y()}, search, progress);
+            GeodesicSearch found = as_asked(options->path, [&] {
+                return geodesics_between(model, {face.number, from.x(), from.y()}, {last.number, end.x(), end.y()},
+                                         search, progress);
+            });
             for (SurfaceCurve& one : found.curves) result.curves.push_back({"geodesic", std::move(one)});
             result.why = found.why;
             return finish(session, *options, result);
@@ -223,8 +229,12 @@ CurveResult projections(const ProjectOptions& options, const std::optional<Model
         else
             curves.push_back(read_points(options.path, progress.part(0.0, 0.2)).points);
         for (std::vector<Vector3>& points : curves) {
-            ProjectedCurve one = project_curve(polyline(std::move(points)), target, projection, progress);
-            result.curves.push_back({"", std::move(one.projection), std::nullopt, one.left_target});
+            try {
+                ProjectedCurve one = project_curve(polyline(std::move(points)), target, projection, progress);
+                result.curves.push_back({"", std::move(one.projection), std::nullopt, one.left_target});
+            } catch (const InvalidInput& error) {
+                throw InvalidInput(options.path + ": " + error.what());
+            }
         }
         return result;
     }
@@ -237,8 +247,9 @@ CurveResult projections(const ProjectOptions& options, const std::optional<Model
     if (!options.to.empty()) {
         const Vector2 end = chosen_point(*original, face, "--to", options.to);
         RelaxationOptions relaxation{.tolerance = 1e-6 * extent(face)};
-        ProjectedGeodesicBetween between =
-            project_geodesic_between(face, start, end, target, projection, relaxation, progress);
+        ProjectedGeodesicBetween between = as_asked(options.path, [&] {
+            return project_geodesic_between(face, start, end, target, projection, relaxation, progress);
+        });
         if (between.relaxation.converged)
             add("geodesic", std::move(between.curve));
         else
@@ -250,13 +261,13 @@ CurveResult projections(const ProjectOptions& options, const std::optional<Model
     const Vector3 direction = three_numbers("--direction", options.direction);
     const Joins joined(*original, options.one_face);
     projection.original_joins = joined.get();
-    if (options.family == "geodesic")
-        add("geodesic", project_geodesic(face, start, direction, *options.length, target, projection, progress));
-    else
-        add(options.family,
-            project_line_of_curvature(face, start,
-                                      options.family == "maximum" ? CurvatureFamily::maximum : CurvatureFamily::minimum,
-                                      direction, *options.length, target, projection, progress));
+    const CurvatureFamily family = options.family == "maximum" ? CurvatureFamily::maximum : CurvatureFamily::minimum;
+    add(options.family, as_asked(options.path, [&] {
+            return options.family == "geodesic"
+                       ? project_geodesic(face, start, direction, *options.length, target, projection, progress)
+                       : project_line_of_curvature(face, start, family, direction, *options.length, target, projection,
+                                                   progress);
+        }));
     return result;
 }
 

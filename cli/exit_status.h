@@ -2,6 +2,9 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
+
+#include <umbilic/core/errors.h>
 
 namespace umbilic {
 
@@ -17,5 +20,16 @@ class WrongUse : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
+
+/// The result of work on a file that has been read: what that finds invalid is what the command line asked for. Throws
+/// WrongUse, which names the file, in place of InvalidInput.
+template <class Work>
+auto as_asked(const std::string& path, const Work& work) {
+    try {
+        return work();
+    } catch (const InvalidInput& error) {
+        throw WrongUse(path + ": " + error.what());
+    }
+}
 
 }  // namespace umbilic

@@ -8,14 +8,18 @@
 
 namespace umbilic {
 
-/// Check of an option's number: finite and positive, or also zero. The message is one short line.
+/// Check of an option's number: finite and positive, or also zero. The message is one short line that says what the
+/// number must be, not what the machine can hold.
 inline CLI::Validator finite_number(bool zero_too) {
     return CLI::Validator(
         [zero_too](const std::string& text) -> std::string {
+            constexpr std::size_t longest_shown = 40;
             double value = 0.0;
             const bool number = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
             if (number && (value > 0.0 || (zero_too && value == 0.0))) return {};
-            return text + (zero_too ? " is no finite number from 0 on" : " is no finite number above 0");
+            const std::string given = text.size() <= longest_shown ? text : text.substr(0, longest_shown) + "…";
+            return std::string(zero_too ? "must be 0 or a positive number" : "must be a positive number") + ", not '" +
+                   given + "'";
         },
         "");
 }

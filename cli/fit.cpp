@@ -16,6 +16,7 @@
 #include <cli/commands.h>
 #include <cli/console.h>
 #include <cli/exit_status.h>
+#include <cli/finite_numbers.h>
 #include <cli/loading.h>
 #include <report/fit_html.h>
 #include <report/json_fit.h>
@@ -133,9 +134,9 @@ void add_fit(CLI::App& application, Session& session, Command& command) {
     subcommand
         ->add_option("--tolerance", words->fit.tolerance,
                      "The net grows until no point is farther than this, mm, instead of until what it leaves is noise")
-        ->check(CLI::PositiveNumber);
+        ->check(finite_number(false));
     subcommand->add_option("--smooth", words->fit.smooth, "Width of a Gaussian low-pass filter before the fit, mm")
-        ->check(CLI::PositiveNumber);
+        ->check(finite_number(false));
     subcommand->add_option("--most_poles", words->fit.most_poles, "Control points along either direction at most")
         ->check(CLI::Range(2, 1000));
     subcommand

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include <cli/finite_numbers.h>
 #include <cli/given_poses.h>
 #include <umbilic/matching/choice_words.h>
 
@@ -95,7 +96,7 @@ void add_match_options(CLI::App& subcommand, MatchWords& words) {
     subcommand
         .add_option("--match_seconds", words.options.match.seconds,
                     "Time after which the best pose so far is judged (results then depend on the machine)")
-        ->check(CLI::PositiveNumber)
+        ->check(finite_number(false))
         ->type_name("SECONDS")
         ->group(group);
     const char* const tolerances = "Tolerances";
@@ -103,26 +104,26 @@ void add_match_options(CLI::App& subcommand, MatchWords& words) {
         subcommand.add_option(names, value, meaning)->check(check)->group(tolerances);
     };
     add("--match_tolerance", words.options.match.tolerance,
-        "Distance within which a sample lies on the other model, mm", CLI::PositiveNumber);
+        "Distance within which a sample lies on the other model, mm", finite_number(false));
     add("--umbilic_invariant_tolerance", words.options.match.umbilic_invariant_tolerance,
-        "Difference of the invariants of two umbilics that may correspond", CLI::PositiveNumber);
+        "Difference of the invariants of two umbilics that may correspond", finite_number(false));
     add("--samples", words.options.features.samples.count, "Points spread over each model", CLI::Range(1, 10'000'000));
     add("--point_samples", words.options.points.samples, "Points of a cloud at which it is measured",
         CLI::Range(40, 10'000'000));
     add("--most_points", words.options.points.most_points,
         "Points of a larger cloud that are used, chosen at random; the result says so", CLI::Range(40, 100'000'000));
     add("--umbilic_resolution", words.options.features.umbilics.resolution,
-        "Side of the smallest box of the umbilic search, relative to the domain", CLI::PositiveNumber);
+        "Side of the smallest box of the umbilic search, relative to the domain", finite_number(false));
     add("--umbilic_boxes", words.options.features.umbilics.boxes_per_patch,
-        "Boxes the umbilic search may use on a patch", CLI::PositiveNumber);
+        "Boxes the umbilic search may use on a patch", finite_number(false));
     add("--umbilic_margin", words.options.features.umbilics.generic_margin,
-        "Relative error of the cubic forms that is assumed on top of rounding", CLI::NonNegativeNumber);
+        "Relative error of the cubic forms that is assumed on top of rounding", finite_number(true));
     add("--umbilic_accuracy", words.options.features.umbilics.accuracy,
         "How far (mm) control points may be from where they should be: types that this changes are non-generic",
-        CLI::NonNegativeNumber);
+        finite_number(true));
     add("--umbilic_recognition", words.options.features.umbilics.recognition,
         "Deviation from a plane or sphere, relative to a face's size, within which it is umbilic everywhere",
-        CLI::NonNegativeNumber);
+        finite_number(true));
 }
 
 void set_seed(MatchWords& words, std::uint64_t seed) {

@@ -11,6 +11,7 @@
 #include <cli/commands.h>
 #include <cli/console.h>
 #include <cli/exit_status.h>
+#include <cli/finite_numbers.h>
 #include <cli/lines_and_regions_text.h>
 #include <cli/loading.h>
 #include <report/json.h>
@@ -99,27 +100,27 @@ void add_umbilics(CLI::App& application, Session& session, Command& command) {
         application.add_subcommand("umbilics", "Every umbilic of every face, with proofs and certificates");
     const auto options = std::make_shared<Options>();
     subcommand->add_option("FILE", options->path, "STEP, IGES or BREP file")->required();
-    subcommand->add_option("--face", options->face, "Only this face, from 1")->check(CLI::PositiveNumber);
+    subcommand->add_option("--face", options->face, "Only this face, from 1")->check(finite_number(false));
     subcommand
         ->add_option("--tolerance,--umbilic_resolution", options->search.resolution,
                      "Side of the smallest box of the search, relative to the domain")
-        ->check(CLI::PositiveNumber);
+        ->check(finite_number(false));
     subcommand->add_option("--umbilic_boxes", options->search.boxes_per_patch, "Boxes the search may use on a patch")
-        ->check(CLI::PositiveNumber);
+        ->check(finite_number(false));
     subcommand
         ->add_option("--umbilic_margin", options->search.generic_margin,
                      "Relative error of the cubic forms that is assumed on top of rounding")
-        ->check(CLI::NonNegativeNumber);
+        ->check(finite_number(true));
     subcommand
         ->add_option("--accuracy,--umbilic_accuracy", options->search.accuracy,
                      "How far (mm) control points may be from where they should be: types that this changes are "
                      "called non-generic")
-        ->check(CLI::NonNegativeNumber);
+        ->check(finite_number(true));
     subcommand
         ->add_option("--umbilic_recognition", options->search.recognition,
                      "Deviation from a plane or sphere, relative to a face's size, within which it is umbilic "
                      "everywhere; 0 finds the umbilics of its ripples")
-        ->check(CLI::NonNegativeNumber);
+        ->check(finite_number(true));
     subcommand->add_option("--report", options->report, "Folder for report.html and umbilics.json")->type_name("DIR");
     add_common_options(*subcommand, session);
     subcommand->callback([&session, &command, options] {

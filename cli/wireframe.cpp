@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include <umbilic/core/errors.h>
 #include <umbilic/wireframe/wireframe.h>
 
 #include <cli/commands.h>
@@ -77,14 +76,8 @@ void add_wireframe(CLI::App& application, Session& session, Command& command) {
                                            [&](const Face& face) { return face.number == wanted; }))
                 throw WrongUse(options->path + ": has no face " + std::to_string(wanted) +
                                "; umbilic info lists its faces");
-            const Wireframe found = [&] {
-                try {
-                    return wireframe(model, options->wireframe, progress.part(0.3, 1.0));
-                } catch (const InvalidInput& error) {
-                    // The file is read; only the options can be wrong.
-                    throw WrongUse(options->path + ": " + error.what());
-                }
-            }();
+            const Wireframe found =
+                as_asked(options->path, [&] { return wireframe(model, options->wireframe, progress.part(0.3, 1.0)); });
             if (!options->output.empty()) write_curves_step(curves(found), options->output);
             clear_progress_bar();
             print(session, bold(printable(options->path)) + "\n" + summary(model, found));

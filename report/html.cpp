@@ -5,6 +5,7 @@
 #include <report/html_sections.h>
 #include <report/omega_plane.h>
 #include <report/page.h>
+#include <report/readable.h>
 #include <report/scene.h>
 #include <report/views.h>
 
@@ -35,13 +36,28 @@ PageData type_keys() {
     return list;
 }
 
+PageData wire_keys() {
+    PageData list{PageData::type::list};
+    for (const auto& [kind, words] :
+         {std::pair(WireKind::maximum, "lines of the greater principal curvature"),
+          std::pair(WireKind::minimum, "lines of the smaller"), std::pair(WireKind::geodesic, "geodesics"),
+          std::pair(WireKind::boundary, "borders of faces")}) {
+        PageData entry;
+        entry.set("words", words);
+        entry.set("color", hex(color_of(kind)));
+        list.push_back(entry);
+    }
+    return list;
+}
+
 }  // namespace
 
 std::string report_html(const ReportInput& input, const Progress& progress) {
     const Comparison& comparison = input.comparison;
     progress.report(0.0, "measuring the pictures");
-    const Scene scene =
+    Scene scene =
         make_scene(input.original, input.original_meshes, input.suspect, input.suspect_meshes, comparison, progress);
+    scene.wires = original_wires(input.original, progress.part(0.5, 0.6));
     progress.report(0.6, "drawing the pictures");
     PageData page;
     page.set("style", page_style());
@@ -65,6 +81,10 @@ std::string report_html(const ReportInput& input, const Progress& progress) {
     page.set("model_views", views_data(model_views(scene, shown)));
     page.set("deviation_views", views_data(deviation_views(scene)));
     page.set("test_views", views_data(test_views(scene, comparison.assessment)));
+    page.set("wireframe_views", views_data(wireframe_views(scene)));
+    page.set("has_wires", !scene.wires.nodes.empty());
+    page.set("wires_step", readable(scene.wires.step, "mm", 3));
+    page.set("wire_kinds", wire_keys());
     page.set("omega_plane", omega_plane_svg(input.original, input.suspect,
                                             scene.posed && comparison.alignment.original_suspect.mirrored));
     progress.report(0.9, "writing the page");

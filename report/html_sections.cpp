@@ -54,6 +54,17 @@ std::string plural(std::size_t count, const std::string& noun) {
     return readable_count(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
+/// Where the nodes of models come from.
+std::string nodes_words(const DirectedComparison& suspect) {
+    const std::size_t of_wireframe = static_cast<std::size_t>(suspect.of_wireframe), all = suspect.nodes.size();
+    if (of_wireframe == 0) return "Nodes are spread evenly over each model's area.";
+    if (of_wireframe == all) return "Nodes are those of each model's wireframe, without those on borders of faces.";
+    return "Of the suspect's nodes " + readable_count(of_wireframe) +
+           " belong to its wireframe (without those on borders of faces); the other " +
+           readable_count(all - of_wireframe) +
+           ", on faces that are narrow against the wireframe's step, are spread evenly by area.";
+}
+
 }  // namespace
 
 void set_summary(const ReportInput& input, PageData& page) {
@@ -236,6 +247,8 @@ void set_alignment(const Alignment& alignment, PageData& page) {
 }
 
 void set_statistics(const Assessment& assessment, PageData& page) {
+    page.set("nodes_words", nodes_words(assessment.suspect_on_original));
+    page.set("nodes_of_wireframe", !assessment.measured && assessment.suspect_on_original.of_wireframe > 0);
     PageData rows{PageData::type::list};
     const auto row = [&](const char* what, Statistics DirectedComparison::*quantity) {
         PageData data = entry({{"what", what}});

@@ -109,6 +109,12 @@ Scene make_scene(const PreparedShape& original, const std::vector<DisplayMesh>& 
     return scene;
 }
 
+SceneWires original_wires(const PreparedShape& original, const Progress& progress) {
+    const PreparedModel* const prepared = original.model();
+    if (!prepared || !(prepared->model.size() > 0.0)) return {};
+    return scene_wires(wireframe(prepared->model, {.umbilics_found = prepared->features.umbilics}, progress));
+}
+
 std::string scene_json(const Scene& scene) {
     BoundingBox box;
     for (const Vector3& point : scene.original.points) box.add(point);
@@ -144,6 +150,7 @@ std::string scene_json(const Scene& scene) {
                        {"suspect", mesh_json(scene.suspect, center)},
                        {"posed", scene.posed},
                        {"umbilics", std::move(umbilics)},
+                       {"wires", wires_json(scene.wires, center)},
                        {"types", std::move(types)},
                        {"diagonal", number_json(box.diagonal())},
                        {"range", number_json(scene.scale.range)},

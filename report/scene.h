@@ -8,6 +8,7 @@
 
 #include <report/color_scale.h>
 #include <report/scene_mesh.h>
+#include <report/scene_wires.h>
 
 namespace umbilic {
 
@@ -28,6 +29,7 @@ struct Scene {
     /// False if no pose was found: then the suspect stands beside the original, brought to its size.
     bool posed = false;
     std::vector<SceneUmbilic> umbilics;
+    SceneWires wires;  ///< of the original; empty unless they were asked for
     ColorScale scale;
 };
 
@@ -37,6 +39,10 @@ struct Scene {
 Scene make_scene(const PreparedShape& original, const std::vector<DisplayMesh>& original_meshes,
                  const PreparedShape& suspect, const std::vector<DisplayMesh>& suspect_meshes,
                  const Comparison& comparison, const Progress& progress = {});
+
+/// The original's wireframe with the usual step, wide enough to be seen in pictures; empty for a cloud of points.
+/// Throws Cancelled.
+SceneWires original_wires(const PreparedShape& original, const Progress& progress = {});
 
 /// The scene for the page's viewer, as JSON: arrays of 32-bit little-endian numbers in base64.
 std::string scene_json(const Scene& scene);

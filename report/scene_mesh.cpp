@@ -2,9 +2,7 @@
 #include <report/scene_mesh.h>
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
-#include <cstring>
 #include <map>
 #include <tuple>
 #include <unordered_map>
@@ -13,7 +11,7 @@
 
 #include <Eigen/Geometry>
 
-#include <report/base64.h>
+#include <report/packed.h>
 
 namespace umbilic {
 
@@ -115,26 +113,6 @@ void compute_normals(SceneMesh& mesh) {
     }
     for (Vector3& normal : mesh.normals) normal = normal.squaredNorm() > 0.0 ? normal.normalized() : Vector3::UnitZ();
 }
-
-namespace {
-
-/// Little-endian 32-bit numbers in base64.
-template <typename Number, typename Range>
-std::string packed(const Range& values) {
-    static_assert(sizeof(Number) == 4 && std::endian::native == std::endian::little);
-    std::string bytes;
-    for (const auto& entry : values) {
-        for (const auto& value : entry) {
-            const auto number = static_cast<Number>(value);
-            char raw[4];
-            std::memcpy(raw, &number, 4);
-            bytes.append(raw, 4);
-        }
-    }
-    return base64(bytes);
-}
-
-}  // namespace
 
 Json mesh_json(const SceneMesh& mesh, const Vector3& center) {
     std::vector<std::array<double, 3>> points;

@@ -21,6 +21,7 @@ namespace {
 constexpr int width = 640;
 constexpr int height = 420;
 constexpr Color grey = {0.80f, 0.82f, 0.84f};
+constexpr Color pale = {0.93f, 0.94f, 0.95f};
 constexpr Color dark_edge = {0.22f, 0.24f, 0.27f};
 constexpr Color light_edge = {0.62f, 0.60f, 0.66f};
 /// Below this brightness (sum of red, green and blue) a surface gets light edges.
@@ -30,6 +31,7 @@ constexpr double glyph_radius = 5.0;
 /// How far an umbilic's disc stands before its white ring, relative to the diagonal.
 constexpr double ring_depth = 1e-4;
 constexpr double node_radius = 2.6;
+constexpr double wire_width = 1.0, wire_node_radius = 1.5;
 /// Of a line of umbilics, and of the strokes along lines of curvature relative to the diagonal.
 constexpr Color line_color = {0.80f, 0.47f, 0.65f};
 constexpr double line_width = 2.6, stroke_share = 0.03;
@@ -154,6 +156,24 @@ std::vector<View> test_views(const Scene& scene, const Assessment& assessment) {
         return View{std::string(test.name) + ": " + readable_count(beyond) + " of " + readable_count(count) +
                         " nodes beyond " + readable(test.similarity->tolerance, test.unit),
                     picture.png()};
+    });
+}
+
+std::vector<View> wireframe_views(const Scene& scene) {
+    if (scene.wires.nodes.empty()) return {};
+    const Matrix3 half_turn = Vector3(-1.0, -1.0, 1.0).asDiagonal();
+    const std::array<std::pair<const char*, ViewAxes>, 2> sides = {
+        {{"Isometric", isometric_view()}, {"Isometric, from behind", isometric_view() * half_turn}}};
+    const BoundingBox box = box_of(scene.original.points);
+    const std::vector<Color> colors(scene.original.points.size(), pale);
+    return drawn(sides.size(), [&](std::size_t i) {
+        Picture picture(sides[i].second, box, width, height);
+        picture.add_surface(scene.original.points, scene.original.normals, scene.original.triangles, colors);
+        for (const SceneWires::Line& line : scene.wires.lines)
+            for (std::size_t k = 1; k < line.points.size(); ++k)
+                picture.add_line(line.points[k - 1], line.points[k], color_of(line.kind), wire_width);
+        for (const Vector3& node : scene.wires.nodes) picture.add_disc(node, dark_edge, wire_node_radius);
+        return View{sides[i].first, picture.png()};
     });
 }
 

@@ -25,6 +25,9 @@ std::vector<View> model_views(const Scene& scene, const SimilarityTransform& sus
 /// One picture a test (distance, kappa_max, kappa_min, direction): nodes within the tolerance and beyond.
 std::vector<View> test_views(const Scene& scene, const Assessment& assessment);
 
+/// The original with the nodes and lines of its wireframe, from two sides; none without a wireframe.
+std::vector<View> wireframe_views(const Scene& scene);
+
 /// A model with its isolated umbilics, lines of umbilics and the directions of lines of curvature, from four sides.
 std::vector<View> umbilics_views(const SceneMesh& mesh, const std::vector<FaceUmbilics>& umbilics);
 

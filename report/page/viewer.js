@@ -75,6 +75,18 @@
   });
   world.add(umbilics);
 
+  // The original's wireframe: lines by kind, dots for nodes; paler on the dark end of the scale.
+  const wires = new THREE.Group();
+  const points = text => new THREE.BufferGeometry()
+    .setAttribute('position', new THREE.BufferAttribute(unpack(text, Float32Array), 3));
+  scene.wires.kinds.forEach(kind => {
+    const color = new THREE.Color(kind.color).lerp(new THREE.Color(0xffffff), scene.posed ? 0.4 : 0);
+    wires.add(new THREE.LineSegments(points(kind.ends), new THREE.LineBasicMaterial({ color: color })));
+  });
+  wires.add(new THREE.Points(points(scene.wires.nodes), new THREE.PointsMaterial({
+    size: 4 * (window.devicePixelRatio || 1), sizeAttenuation: false, color: scene.posed ? 0xffffff : 0x1c2128 })));
+  world.add(wires);
+
   function reset() {
     const box = new THREE.Box3().setFromObject(suspect);
     if (!scene.posed) box.union(new THREE.Box3().setFromObject(original));
@@ -90,6 +102,7 @@
     suspect.visible = box('suspect');
     original.visible = box('original');
     umbilics.visible = box('umbilics');
+    wires.visible = box('wires');
     suspectEdges.visible = suspect.visible && box('edges');
     originalEdges.visible = original.visible && box('edges');
     if (scene.posed) {

@@ -110,6 +110,48 @@ TEST_F(Command, WrongUseIsTwo) {
     }
 }
 
+TEST_F(Command, SaysWhatANumberMustBe) {
+    const std::string bottle = model_path("bottle.step");
+    struct Option {
+        std::vector<std::string> words;
+        bool zero_too = false;
+    };
+    const std::vector<Option> options = {
+        {{"umbilics", bottle, "--face"}},
+        {{"umbilics", bottle, "--tolerance"}},
+        {{"umbilics", bottle, "--umbilic_boxes"}},
+        {{"umbilics", bottle, "--umbilic_margin"}, true},
+        {{"umbilics", bottle, "--accuracy"}, true},
+        {{"umbilics", bottle, "--umbilic_recognition"}, true},
+        {{"match", bottle, bottle, "--match_seconds"}},
+        {{"match", bottle, bottle, "--match_tolerance"}},
+        {{"match", bottle, bottle, "--umbilic_invariant_tolerance"}},
+        {{"compare", bottle, bottle, "--match_seconds"}},
+        {{"compare", bottle, bottle, "--distance"}},
+        {{"compare", bottle, bottle, "--kappa"}},
+        {{"fit", bottle, "-o", "out.step", "--tolerance"}},
+        {{"fit", bottle, "-o", "out.step", "--smooth"}},
+        {{"wireframe", bottle, "--step"}},
+        {{"curve", "geodesic", bottle, "--from", "0.5,0.5", "--to", "0.6,0.6", "--longest"}},
+        {{"curve", "geodesic", bottle, "--from", "0.5,0.5", "--to", "0.6,0.6", "--spacing"}, true},
+    };
+    for (const Option& option : options)
+        for (const std::string number : {"-1", "0", "nan", "inf", "1e999", "many"}) {
+            if (number == "0" && option.zero_too) continue;
+            std::vector<std::string> words = option.words;
+            const std::string name = words.back();
+            words.push_back(number);
+            const CommandResult result = run_umbilic(words);
+            SCOPED_TRACE(name + " " + number);
+            EXPECT_EQ(result.status, 2);
+            EXPECT_TRUE(is_one_line(result, option.zero_too ? "must be 0 or a positive number, not '" + number + "'"
+                                                            : "must be a positive number, not '" + number + "'"))
+                << result.error;
+            EXPECT_NE(result.error.find(name), std::string::npos) << result.error;
+            EXPECT_LT(result.error.size(), 160u) << result.error;
+        }
+}
+
 TEST_F(Command, BadInputIsThree) {
     const std::vector<std::string> bad = {path("missing.step"),
                                           folder_.string(),

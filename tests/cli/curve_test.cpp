@@ -71,6 +71,15 @@ TEST(CurveCommand, FindsGeodesicsAndWritesThemAsWires) {
     EXPECT_EQ(shot["curves"][0]["points"].size(), 11u);
 }
 
+TEST(CurveCommand, TakesSpacingsLargerThanTheFace) {
+    const json result = curve({"lines-of-curvature", model_path("torus.step"), "--start", "0.5,0.7", "--family",
+                               "maximum", "--length", "10", "--spacing", "1e6"});
+    // Start and both ends.
+    ASSERT_EQ(result["curves"].size(), 1u);
+    EXPECT_EQ(result["curves"][0]["points"].size(), 3u);
+    EXPECT_NEAR(result["curves"][0]["length"].get<double>(), 20, 1e-6);
+}
+
 TEST(CurveCommand, SaysThatThereIsNoGeodesic) {
     const json none = curve({"geodesic", model_path("blade.step"), "--face", "1", "--from", "0.5,0.5", "--to",
                              "0.5,0.5", "--to-face", "2"});
@@ -147,12 +156,29 @@ TEST(CurveCommand, RefusesBadWordsAndInput) {
     expect_error({"lines-of-curvature", torus, "--start", "0.5,0.5", "--spacing", "-1"}, 2, "--spacing");
     expect_error({"lines-of-curvature", torus, "--start", "0.5,0.5", "--spacing", "nan"}, 2, "--spacing");
     expect_error({"lines-of-curvature", torus, "--start", "0.5,0.5", "--tolerance", "0"}, 2, "--tolerance");
-    expect_error({"lines-of-curvature", model_path("planar_block.step"), "--start", "0.1,0.1"}, 3, "umbilic");
-    expect_error({"lines-of-curvature", model_path("sphere.igs"), "--start", "0.5,0.5"}, 3, "umbilic");
+    // The files are good: what cannot be is what the words ask for.
+    const std::string block = model_path("planar_block.step"), cut = model_path("bottle_cut.step");
+    expect_error({"lines-of-curvature", block, "--start", "0.1,0.1"}, 2, "the start is umbilic");
+    expect_error({"lines-of-curvature", block, "--start", "0.1,0.1"}, 2, "planar_block.step");
+    expect_error({"lines-of-curvature", model_path("sphere.igs"), "--start", "0.5,0.5"}, 2, "umbilic");
+    expect_error(
+        {"project", block, block, "--start", "0.1,0.1", "--direction=1,0,0", "--length", "1", "--family", "maximum"}, 2,
+        "planar_block.step: projection of a line of curvature: the start is umbilic");
+    expect_error({"lines-of-curvature", cut, "--start", "0.01,0.01"}, 2, "cut away by a trimming loop");
+    expect_error({"geodesic", cut, "--from", "0.01,0.01", "--to", "0.4,0.6"}, 2,
+                 "--from 0.01,0.01 is outside of face 1");
+    expect_error({"geodesic", cut, "--from", "0.4,0.6", "--to", "0.01,0.01"}, 2, "--to 0.01,0.01 is outside of face 1");
+    expect_error({"geodesic", cut, "--from", "0.4,0.6", "--to", "nan,0.5"}, 2, "--to");
+    expect_error({"geodesic", bottle, "--face", "1", "--from", "0.5,0.5", "--to", "0.5,0.5", "--to-face", "9"}, 2,
+                 "no face 9");
+    expect_error({"lines-of-curvature", torus, "--start", "0.5,0.5", "--spacing", "1e-9"}, 2, "choose at least");
+    expect_error({"geodesic", torus, "--from", "0.5,0.5", "--direction=1,0,0", "--length", "10", "--spacing", "1e-12"},
+                 2, "choose at least");
     expect_error({"geodesic", torus, "--from", "0.5,0.5"}, 2, "--to");
-    expect_error({"geodesic", torus, "--from", "0.5,0.5", "--to", "0.5,0.5"}, 3, "the same");
+    expect_error({"geodesic", torus, "--from", "0.5,0.5", "--to", "0.5,0.5"}, 2, "the same");
     expect_error({"geodesic", torus, "--from", "0.5,0.5", "--direction=1,0,0"}, 2, "--length");
-    expect_error({"geodesic", torus, "--from", "0.5,0.5", "--direction=0,0,0", "--length", "1"}, 3, "direction");
+    expect_error({"geodesic", torus, "--from", "0.5,0.5", "--direction=0,0,0", "--length", "1"}, 2, "direction");
+    expect_error({"geodesic", torus, "--from", "0.5,0.5", "--direction=nan,0,0", "--length", "1"}, 2, "--direction");
     expect_error({"project", torus, torus, "--start", "0.5,0.5"}, 2, "--direction");
     expect_error({"project", model_path("ground_truth.json"), torus}, 3, "no result of umbilic curve");
     expect_error({"project", "/nowhere.xyz", torus}, 3, "/nowhere.xyz");

@@ -26,7 +26,7 @@ TEST(Html, NeedsNoOtherFileAndNoNetwork) {
         EXPECT_EQ(elements.substr(at, expected.size()), expected);
         ++pictures;
     }
-    EXPECT_EQ(pictures, 10);  // two models, four sides, four tests
+    EXPECT_EQ(pictures, 12);  // two models, four sides, four tests, two sides of the wireframe
     const auto style = page.find("<style>");
     const std::string css = page.substr(style, page.find("</style>") - style);
     EXPECT_EQ(css.find("url("), std::string::npos);
@@ -56,6 +56,15 @@ TEST(Html, TellsWhatTheComparisonHolds) {
         EXPECT_NE(page.find(expected), std::string::npos) << expected;
     }
     EXPECT_EQ(page.find("{{"), std::string::npos);
+}
+
+TEST(Html, ShowsTheWireframeOfTheOriginal) {
+    const auto made = made_comparison();
+    const std::string page = report_html(made->input());
+    EXPECT_NE(page.find("The wireframe of the original"), std::string::npos);
+    EXPECT_NE(page.find("name=\"wires\""), std::string::npos);
+    // The page's viewer draws the same.
+    EXPECT_NE(page.find("\"kind\":\"maximum\",\"color\":\"#"), std::string::npos);
 }
 
 TEST(Html, WithoutAPoseShowsNeitherDeviationNorStatistics) {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <regex>
+#include <set>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -12,6 +13,7 @@
 #include <report/picture.h>
 #include <report/readable.h>
 #include <report/scene.h>
+#include <report/views.h>
 
 #include "made_comparison.h"
 
@@ -139,6 +141,27 @@ TEST(Scene, DeviationIsPositiveOnTheOutwardSide) {
         }
     }
     EXPECT_NEAR(value, 0.01, 1e-6);
+}
+
+TEST(Scene, WiresLieOnTheOriginal) {
+    const auto made = made_comparison();
+    const SceneWires wires = original_wires(*made->original);
+    EXPECT_GT(wires.step, 0.0);
+    EXPECT_GT(wires.nodes.size(), 100u);
+    EXPECT_GT(wires.lines.size(), wires.nodes.size());
+    std::set<WireKind> kinds;
+    for (const SceneWires::Line& line : wires.lines) {
+        kinds.insert(line.kind);
+        EXPECT_GE(line.points.size(), 2u);
+        for (const Vector3& point : line.points)
+            EXPECT_LT(made->original->tree.closest(point)->distance, 1e-6 * wires.step);
+    }
+    EXPECT_EQ(kinds.size(), 4u);
+    Scene scene =
+        make_scene(*made->original, made->original_meshes, *made->suspect, made->suspect_meshes, made->comparison);
+    EXPECT_TRUE(wireframe_views(scene).empty());
+    scene.wires = wires;
+    EXPECT_EQ(wireframe_views(scene).size(), 2u);
 }
 
 TEST(Scene, LongEdgesAreSplitOnTheSurface) {

@@ -4,31 +4,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include <similarity/shapes.h>
 #include <support/surfaces.h>
 #include <umbilic/similarity/foot_curvature.h>
 
 namespace umbilic {
 namespace {
 
-/// Parabolic cylinder z = -x^2 for x < 0, flat for x > 0: quadratic in u with a simple knot at 0, so that the curvature
-/// there jumps from 2 to 0.
-NurbsSurface half_flat() {
-    // Control points of the two pieces share the pole at x = 0 by C1 continuity.
-    KnotVector u(2, {-1, -1, -1, 0, 1, 1, 1}), v(1, {0, 0, 1, 1});
-    std::vector<Vector3> poles;
-    const double x[] = {-1.0, -0.5, 0.5, 1.0}, z[] = {-1.0, 0.0, 0.0, 0.0};
-    for (int i = 0; i < 4; ++i)
-        for (int j = 0; j < 2; ++j) poles.emplace_back(x[i], j, z[i]);
-    return NurbsSurface(u, v, poles);
-}
-
 TEST(FootCurvature, AwayFromKnotsThereIsOneCurvature) {
-    const Model model = support::model_of({half_flat()});
+    const Model model = support::model_of({test::half_flat()});
     EXPECT_EQ(curvatures_within(model.faces[0], 0.5, 0.5, 0.1).size(), 1u);
 }
 
 TEST(FootCurvature, BesideAKnotWhereItJumpsBothSidesAreOffered) {
-    const Model model = support::model_of({half_flat()});
+    const Model model = support::model_of({test::half_flat()});
     const auto found = curvatures_within(model.faces[0], 0.001, 0.5, 0.01);
     ASSERT_GE(found.size(), 2u);
     const auto has = [&](double kappa_max) {
@@ -40,7 +29,7 @@ TEST(FootCurvature, BesideAKnotWhereItJumpsBothSidesAreOffered) {
 }
 
 TEST(FootCurvature, ReversedFacesLookAtTheOtherSide) {
-    Model model = support::model_of({half_flat()});
+    Model model = support::model_of({test::half_flat()});
     model.faces[0].reversed = true;
     const Curvature c = curvatures_within(model.faces[0], -0.5, 0.5, 0.0).front();
     const Curvature plain = curvature(model.faces[0].surface, -0.5, 0.5);

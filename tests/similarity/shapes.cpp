@@ -88,6 +88,16 @@ std::vector<NurbsSurface> pieces(const NurbsSurface& surface, int u_pieces, int 
     return result;
 }
 
+NurbsSurface half_flat() {
+    // Control points of the two pieces share the pole at x = 0 by C1 continuity.
+    KnotVector u(2, {-1, -1, -1, 0, 1, 1, 1}), v(1, {0, 0, 1, 1});
+    std::vector<Vector3> poles;
+    const double x[] = {-1.0, -0.5, 0.5, 1.0}, z[] = {-1.0, 0.0, 0.0, 0.0};
+    for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 2; ++j) poles.emplace_back(x[i], j, z[i]);
+    return NurbsSurface(u, v, poles);
+}
+
 PreparedModel prepared_on_grid(const Model& model, int n) {
     Features features;
     for (const Face& face : model.faces) {

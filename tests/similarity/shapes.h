@@ -21,6 +21,10 @@ NurbsSurface with_bump(const NurbsSurface& surface, int i, int j, double height)
 /// The Bezier pieces of the surface with piece numbers below (u_pieces, v_pieces), each as a surface of its own.
 std::vector<NurbsSurface> pieces(const NurbsSurface& surface, int u_pieces, int v_pieces);
 
+/// Parabolic cylinder z = -x^2 for x < 0, flat for x > 0: quadratic in u with a simple knot at 0, so that the curvature
+/// there jumps from 2 to 0.
+NurbsSurface half_flat();
+
 /// Features without umbilics: the nodes are the midpoints of n x n parameter cells of every whole face, with their
 /// areas. A second way to the samples, independent of area_samples().
 PreparedModel prepared_on_grid(const Model& model, int n = 40);

@@ -41,7 +41,8 @@ std::vector<Invariance> similarities(unsigned seed = 1);
 /// The same shape with the same faces, described otherwise: u and v exchanged, each reversed, degrees raised in u, v
 /// and both, random knots inserted, Bezier form, Moebius maps of both parameters, polynomial made rational with unequal
 /// weights, two pieces joined with a knot of full multiplicity and unequal speed, elementary faces as NURBS. Faces
-/// become B-spline faces; trimming curves that the map of parameters bends become `loop_segments` straight pieces.
+/// become B-spline faces; trimming curves that the map of parameters bends become cubic pieces, accurate to 1e-11 of
+/// the domain.
 std::vector<Invariance> reparametrisations(unsigned seed = 1);
 
 /// The last of the reparametrisations: elementary faces as B-spline faces, all loops in surface parameters.
@@ -58,8 +59,5 @@ Invariance reapproximated_within(double relative_deviation);
 
 /// All of the above but the last, which needs a deviation.
 std::vector<Invariance> invariances(unsigned seed = 1);
-
-/// Straight pieces that stand for a bent trimming curve.
-inline constexpr int loop_segments = 256;
 
 }  // namespace umbilic::support

@@ -266,7 +266,7 @@ Reparametrised rejoined(const NurbsSurface& surface) {
     for (const double t : joint.u_knots().knots()) knots.push_back(stretched(t));
     return {
         NurbsSurface(KnotVector(joint.u_degree(), std::move(knots)), joint.v_knots(), joint.poles(), joint.weights()),
-        [stretched](const Vector2& at) { return Vector2(stretched(at.x()), at.y()); }, false};
+        [stretched](const Vector2& at) { return Vector2(stretched(at.x()), at.y()); }, false, cut};
 }
 
 NurbsSurface restricted(const NurbsSurface& surface, const ParameterBox& box) {

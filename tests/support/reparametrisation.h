@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 
 #include <umbilic/nurbs/nurbs_surface.h>
@@ -16,6 +17,8 @@ struct Reparametrised {
     std::function<Vector2(const Vector2&)> parameters;
     /// `parameters` takes straight lines to straight lines, evenly.
     bool affine = true;
+    /// u, on the original, of the line along which `parameters` bends.
+    std::optional<double> bend = {};
 };
 
 /// u and v exchanged.

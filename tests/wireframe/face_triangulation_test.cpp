@@ -80,7 +80,7 @@ TEST(FaceTriangulation, KeepsItsAreaUnderInsertionAndRemoval) {
     FaceTriangulation mesh;
     ASSERT_FALSE(mesh.build(loops, 1.0));
     mesh.set_points(flat(loops));
-    mesh.improve();
+    mesh.improve(Vector3::Zero());
     std::vector<int> inner;
     // On edges and corners of others too: a grid.
     for (int i = 1; i < 16; ++i)
@@ -135,7 +135,7 @@ TEST(FaceTriangulation, IsGluedAcrossASeam) {
         points[names[i]] = {std::cos(angle), std::sin(angle), 4.0 * loops.corners[i].y / grid_side};
     }
     mesh.set_points(points);
-    mesh.improve();
+    mesh.improve(Vector3::Zero());
     for (int k = 1; k < n; ++k) EXPECT_TRUE(mesh.remove(left(k)));
     const Counts counts = count(mesh);
     EXPECT_EQ(counts.euler(), 0);

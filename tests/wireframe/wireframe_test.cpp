@@ -94,6 +94,28 @@ TEST(Wireframe, CoversDiscsWithTriangulatedOrQuadrilateralCells) {
     }
 }
 
+TEST(Wireframe, HasTheSameNodesEdgesAndCellsUndrawn) {
+    const Model model = support::model_of({support::smooth_bicubic(8, 2), support::torus_quarter(3, 1)});
+    const Wireframe drawn = wireframe(model), undrawn = wireframe(model, {.drawn = false});
+    ASSERT_EQ(drawn.faces.size(), undrawn.faces.size());
+    for (std::size_t f = 0; f < drawn.faces.size(); ++f) {
+        const FaceWireframe &one = drawn.faces[f], &other = undrawn.faces[f];
+        ASSERT_EQ(one.nodes.size(), other.nodes.size());
+        for (std::size_t i = 0; i < one.nodes.size(); ++i) {
+            EXPECT_EQ(one.nodes[i].curvature.point, other.nodes[i].curvature.point);
+            EXPECT_EQ(one.nodes[i].area, other.nodes[i].area);
+        }
+        ASSERT_EQ(one.edges.size(), other.edges.size());
+        for (std::size_t i = 0; i < one.edges.size(); ++i) {
+            EXPECT_EQ(one.edges[i].length, other.edges[i].length);
+            EXPECT_FALSE(one.edges[i].between.empty());
+            EXPECT_TRUE(other.edges[i].between.empty() || other.edges[i].kind == WireKind::boundary);
+        }
+        EXPECT_EQ(one.cells, other.cells);
+        EXPECT_EQ(other.coverage, 0.0);
+    }
+}
+
 TEST(Wireframe, FollowsPrincipalDirections) {
     const Model model = support::model_of({support::table_3_1_patch()});
     const FaceWireframe face = wireframe(model).faces.front();

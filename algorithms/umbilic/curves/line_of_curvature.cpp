@@ -66,7 +66,7 @@ void append(SurfaceCurve& curve, const LineTracer& tracer, const TracedLine& lin
     if (line.steps.empty()) return;
     if (curve.points.empty()) add(0.0, line.steps.front().start);
     if (spacing > 0.0) {
-        const double parts = std::max(1.0, std::round(line.length / spacing));
+        const int parts = parts_of(line.length, spacing);
         for (int i = 1; i < parts; ++i) add(line.length * i / parts, line.at(line.length * i / parts));
         add(line.length, line.steps.back().end);
     } else {

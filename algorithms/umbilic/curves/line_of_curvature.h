@@ -34,7 +34,8 @@ struct LineOfCurvatureOptions {
 /// of the steps (Dormand and Prince's pair of orders 5 and 4).
 ///
 /// Throws InvalidInput if the face's surface does not contain the start, the start lies outside of the trimming loops,
-/// in an umbilic, or an option is not finite or not positive; NumericFailure if the surface is too rough; Cancelled.
+/// in an umbilic, an option is not finite or not positive, or the spacing asks for more than most_curve_points;
+/// NumericFailure if the surface is too rough; Cancelled.
 SurfaceCurve line_of_curvature(const Face& face, const Vector2& start, CurvatureFamily family,
                                const LineOfCurvatureOptions& options = {}, const Progress& progress = {});
 

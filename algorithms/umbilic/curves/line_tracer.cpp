@@ -33,6 +33,8 @@ constexpr double forward_cosine = 0.7;
 constexpr int trim_samples = 4, halvings = 50;
 /// Steps of Newton's method for the length of the last step of a line or piece.
 constexpr int cut_corrections = 3;
+/// They end at this share of the error allowed in a step.
+constexpr double relative_cut = 1e-4;
 /// A line meets a knot line, and does not run along it, if the sine of the angle between them is above this.
 constexpr double meeting_sine = 1e-6;
 /// Rounding of a parameter relative to its domain.
@@ -162,6 +164,7 @@ struct LineRun {
     Stepper stepper;
     double step = 0.0;
     Vector3 first_point, first_tangent;
+    int asked = 1;  ///< multiple of stop_spacing at which to ask next whether to stop
 
     const NurbsSurface& surface() const { return tracer.face_.surface; }
 
@@ -252,6 +255,7 @@ struct LineRun {
         tangent = start_tangent;
         piece = last.piece;
         const State x0 = state(last.start), d0 = state(last.start_rate);
+        const double enough = std::max(rounding * h, relative_cut * options.tolerance);
         for (int i = 0; i < cut_corrections; ++i) {
             State x1, d1, middle;
             stepper.do_step([&](const State& at, State& rate, double) { rate = state(rates(vector(at))); }, x0, d0,
@@ -262,7 +266,7 @@ struct LineRun {
             last.end_rate = vector(d1);
             last.middle = vector(middle);
             const double correction = excess(last.end) / slope(last.end_rate);
-            if (!(std::abs(correction) < 0.1 * h) || std::abs(correction) <= rounding * h) break;
+            if (!(std::abs(correction) < 0.1 * h) || std::abs(correction) <= enough) break;
             h -= correction;
         }
         s = last.s + last.length;
@@ -389,6 +393,20 @@ struct LineRun {
         return false;
     }
 
+    /// Whether the line shall end, by what is seen on its last step.
+    bool stops() {
+        if (!options.stop || !(options.stop_spacing > 0.0) || line.steps.empty()) return false;
+        const TracedStep& last = line.steps.back();
+        for (; asked * options.stop_spacing <= last.s + last.length; ++asked) {
+            const double share = std::clamp((asked * options.stop_spacing - last.s) / last.length, 0.0, 1.0);
+            if (!options.stop(tracer.piece_value(last.piece, last.at(share), family))) continue;
+            line.stopped = asked * options.stop_spacing;
+            line.ended = CurveEnd::length;
+            return true;
+        }
+        return false;
+    }
+
     /// Ends the line where its last step passes its first point.
     bool closes() {
         if (!options.close || line.steps.size() < 2) return false;
@@ -438,8 +456,8 @@ TracedLine LineTracer::trace(const Vector2& start, CurvatureFamily family, const
         }
         if (!run.advance()) break;
         const bool within = run.leave_piece();
-        if (run.crosses_loop() || run.closes() || !within) break;
-        if (options.stop && options.stop(run.here)) break;
+        const bool ends = run.crosses_loop() || run.closes() || !within;
+        if (run.stops() || ends) break;
         if (indeterminate(run.here)) {
             run.line.ended = CurveEnd::umbilic;
             break;

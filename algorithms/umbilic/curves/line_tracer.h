@@ -51,6 +51,7 @@ struct TracedLine {
     CurveEnd ended = CurveEnd::length;
     bool stuck = false;  ///< ended before an umbilic: the surface is not smooth enough there
     double length = 0.0;
+    std::optional<double> stopped;           ///< arc length at which TraceOptions::stop was true
     double error = 0.0;                      ///< sum of the estimated errors of the steps, mm
     Vector3 end_tangent = Vector3::UnitX();  ///< unit, at the end, in the direction of the run
 
@@ -60,13 +61,16 @@ struct TracedLine {
 };
 
 struct TraceOptions {
-    double length = 0.0;                       ///< where to stop, mm
-    double tolerance = 0.0;                    ///< error allowed in a step of the length of 1 / kappa or shorter, mm
-    double longest_step = 0.0;                 ///< mm
-    bool close = true;                         ///< stop where the line comes back to its start
-    double closing_distance = 0.0;             ///< mm: a line that passes its start within this distance is closed
-    std::size_t most_steps = 1'000'000;           ///< a line that needs more is stuck
-    std::function<bool(const FieldValue&)> stop;  ///< asked after each step with the field at its end
+    double length = 0.0;                 ///< where to stop, mm
+    double tolerance = 0.0;              ///< error allowed in a step of the length of 1 / kappa or shorter, mm
+    double longest_step = 0.0;           ///< mm
+    bool close = true;                   ///< stop where the line comes back to its start
+    double closing_distance = 0.0;       ///< mm: a line that passes its start within this distance is closed
+    std::size_t most_steps = 1'000'000;  ///< a line that needs more is stuck
+    double stop_spacing = 0.0;           ///< mm, arc length between the places where `stop` is asked
+    /// Asked with the field at every multiple of `stop_spacing` but 0, after the step that holds it: the line ends with
+    /// that step.
+    std::function<bool(const FieldValue&)> stop;
 };
 
 /// Traces lines on one face (thesis 3.3). Within a polynomial piece of the surface the direction is a smooth function;
@@ -77,6 +81,7 @@ public:
     LineTracer(const Face& face, LineField field = {});
 
     const Face& face() const { return face_; }
+    bool along_axis() const { return field_.axis.has_value(); }
     /// The field on the piece of the surface that holds (u, v).
     FieldValue value(const Vector2& parameters, CurvatureFamily family) const;
     /// Length the face's thresholds are relative to: sqrt(area), mm.

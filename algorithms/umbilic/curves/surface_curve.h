@@ -39,6 +39,13 @@ struct SurfaceCurve {
     double error = 0.0;   ///< estimated distance of the points from the true curve, mm
 };
 
+/// Points a curve may be asked for.
+inline constexpr int most_curve_points = 1'000'000;
+
+/// Into how many equal parts of about `spacing` (mm, above 0) a curve of that length is cut, at least one. Throws
+/// InvalidInput if that were more than most_curve_points.
+int parts_of(double length, double spacing);
+
 /// Lower-case words of the JSON results.
 const char* name(CurvatureFamily family);
 const char* name(CurveEnd end);

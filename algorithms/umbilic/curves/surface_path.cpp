@@ -400,7 +400,7 @@ SurfaceCurve sampled(const SurfacePath& path, int chart, double spacing, bool by
             {by_projected_length ? y[projected_length] : s, at, step.pieces[chart].derivatives(p, 0).r()});
     };
     double next = 0.0;
-    const int parts = spacing > 0.0 ? std::max(1, static_cast<int>(std::lround(path.length / spacing))) : 0;
+    const int parts = spacing > 0.0 ? parts_of(path.length, spacing) : 0;
     int part = 0;
     for (std::size_t i = 0; i < path.steps.size(); ++i) {
         const PathStep& step = path.steps[i];

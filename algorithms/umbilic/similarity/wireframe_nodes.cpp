@@ -28,7 +28,8 @@ NodeSet wireframe_nodes(const PreparedModel& prepared, int count, const Progress
     const double step = model.size() / std::sqrt(static_cast<double>(std::max(count, 1)));
     if (!(step > 0.0)) return area_nodes(prepared);
     const Wireframe found = wireframe(
-        model, {.step = step, .most_nodes = most_nodes, .umbilics_found = prepared.features.umbilics}, progress);
+        model, {.step = step, .most_nodes = most_nodes, .drawn = false, .umbilics_found = prepared.features.umbilics},
+        progress);
 
     std::map<int, std::vector<const AreaSample*>> samples;
     for (const AreaSample& sample : prepared.features.samples) samples[sample.at.face].push_back(&sample);

@@ -22,7 +22,11 @@ constexpr std::array<double, 4> gauss_node = {-0.8611363115940526, -0.3399810435
 constexpr std::array<double, 4> gauss_weight = {0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
                                                 0.3478548451374538};
 /// Parts of a knot span of a border curve, on each of which the quadrature is used.
-constexpr int parts_per_span = 4;
+constexpr int parts_per_span = 2;
+/// A part is halved while that changes its length by more than this share: knots of the surface that the curve crosses
+/// spoil the quadrature.
+constexpr double relative_accuracy = 1e-8;
+constexpr int most_halvings = 16;
 /// Greatest turn of the tangent between neighbours.
 constexpr double greatest_turn = std::numbers::pi / 3;
 constexpr int most_parts = 100000;
@@ -38,21 +42,19 @@ public:
         ends.push_back(range.high);
         t_ = {range.low};
         s_ = {0.0};
-        Vector3 before = Vector3::Zero();
         for (std::size_t i = 0; i + 1 < ends.size(); ++i)
             for (int k = 0; k < parts_per_span; ++k) {
                 const double low = t_.back(), high = ends[i] + (ends[i + 1] - ends[i]) * (k + 1) / parts_per_span;
-                double sum = 0.0;
-                for (int g = 0; g < 4; ++g) {
-                    const Vector3 tangent = at(low + 0.5 * (high - low) * (1 + gauss_node[g])).r_t;
-                    sum += gauss_weight[g] * tangent.norm();
-                    if (before.norm() > 0.0 && tangent.norm() > 0.0)
-                        turn_ += std::atan2(before.cross(tangent).norm(), before.dot(tangent));
-                    before = tangent;
-                }
-                t_.push_back(high);
-                s_.push_back(s_.back() + 0.5 * (high - low) * sum);
+                add(low, high, quadrature(low, high), 0);
             }
+        // From end to end, ends included: what lies beyond the outermost nodes of a quadrature depends on the knots.
+        Vector3 before = Vector3::Zero();
+        for (const double t : t_) {
+            const Vector3 tangent = at(t).r_t;
+            if (before.norm() > 0.0 && tangent.norm() > 0.0)
+                turn_ += std::atan2(before.cross(tangent).norm(), before.dot(tangent));
+            before = tangent;
+        }
     }
 
     double length() const { return s_.back(); }
@@ -68,12 +70,9 @@ public:
         if (!(whole > 0.0)) return low;
         double t = low + (high - low) * wanted / whole;
         for (int n = 0; n < 4; ++n) {
-            double sum = 0.0;
-            for (int g = 0; g < 4; ++g)
-                sum += gauss_weight[g] * at(low + 0.5 * (t - low) * (1 + gauss_node[g])).r_t.norm();
             const double speed = at(t).r_t.norm();
             if (!(speed > 0.0)) break;
-            const double correction = (0.5 * (t - low) * sum - wanted) / speed;
+            const double correction = (quadrature(low, t) - wanted) / speed;
             t = std::clamp(t - correction, low, high);
             if (std::abs(correction) <= 1e-13 * (high - low)) break;
         }
@@ -81,6 +80,26 @@ public:
     }
 
 private:
+    double quadrature(double low, double high) const {
+        double sum = 0.0;
+        for (int g = 0; g < 4; ++g)
+            sum += gauss_weight[g] * at(low + 0.5 * (high - low) * (1 + gauss_node[g])).r_t.norm();
+        return 0.5 * (high - low) * sum;
+    }
+
+    /// Adds a part of the curve whose quadrature gave `length`, halved until that is accurate.
+    void add(double low, double high, double length, int halvings) {
+        const double middle = 0.5 * (low + high), first = quadrature(low, middle), second = quadrature(middle, high);
+        if (halvings < most_halvings && std::abs(first + second - length) > relative_accuracy * (first + second)) {
+            add(low, middle, first, halvings + 1);
+            add(middle, high, second, halvings + 1);
+            return;
+        }
+        t_.insert(t_.end(), {middle, high});
+        s_.push_back(s_.back() + first);
+        s_.push_back(s_.back() + second);
+    }
+
     static std::vector<double> breaks(const Face& face, const TrimmingCurve& curve) {
         std::vector<double> result = curve.curve.knots().breaks();
         // A straight border along a parameter line meets the knot lines of the surface.

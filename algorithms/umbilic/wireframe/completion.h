@@ -5,6 +5,7 @@
 
 #include <umbilic/core/progress.h>
 #include <umbilic/wireframe/border_nodes.h>
+#include <umbilic/wireframe/face_frame.h>
 #include <umbilic/wireframe/line_net.h>
 #include <umbilic/wireframe/wireframe.h>
 
@@ -13,6 +14,7 @@ namespace umbilic {
 struct CompletionOptions {
     double step = 0.0;
     int most_nodes = 0;
+    bool drawn = true;  ///< with points of geodesics and the coverage
 };
 
 struct Completion {
@@ -22,8 +24,8 @@ struct Completion {
 };
 
 /// Joins the nodes of a face's border and net to triangles and quadrilaterals, and adds nodes where the net leaves
-/// more than a step open.
-Completion complete(const Face& face, const FaceBorder& border, const LineNet& net, const LineField& field,
-                    const CompletionOptions& options, const Progress& progress = {});
+/// more than a step open. What is equally good is decided by the face's frame.
+Completion complete(const Face& face, const FaceBorder& border, const FaceFrame& frame, const LineNet& net,
+                    const LineField& field, const CompletionOptions& options, const Progress& progress = {});
 
 }  // namespace umbilic

@@ -67,8 +67,9 @@ public:
     void set_points(std::vector<Vector3> points);
     const std::vector<Vector3>& points() const { return points_; }
     /// Flips edges until no flip makes the least angle in space of two triangles greater, and so from now on after
-    /// every change; before, flips follow the circles in the parameter plane.
-    void improve();
+    /// every change; before, flips follow the circles in the parameter plane. Between diagonals that are equally good
+    /// (of a rectangle, say) the one more along `preferred`, a unit vector, is taken.
+    void improve(const Vector3& preferred);
 
     struct Place {
         int triangle = -1;
@@ -110,6 +111,7 @@ private:
     std::optional<Conflict> enforce(int from, int to);
     GridPoint opposite(int slot) const;
     double least_angle(int a, int b, int c) const;
+    double along_preferred(int a, int b) const;
 
     std::vector<Slot> slots_;
     std::vector<unsigned> versions_;
@@ -120,6 +122,7 @@ private:
     double aspect_ = 1.0;
     std::function<Matrix2(const GridPoint&)> metric_;
     bool in_space_ = false;
+    Vector3 preferred_ = Vector3::Zero();
     mutable int last_ = 0;
 };
 

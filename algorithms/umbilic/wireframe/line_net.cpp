@@ -5,339 +5,34 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <map>
-#include <optional>
-#include <tuple>
 
-#include <Eigen/Geometry>
-#include <Eigen/LU>
-
-#include <umbilic/wireframe/point_cells.h>
+#include <umbilic/wireframe/net_builder.h>
 
 namespace umbilic {
 
 namespace {
 
-// All factors of the step are chosen off simple fractions, so that models with round measures are not undecided.
-
-/// A line ends where another one of its family is nearer than this, and may begin where none is nearer than that.
-constexpr double least_distance = 0.537;
-constexpr double least_start_distance = 0.713;
 /// A line without a crossing for longer than this gets a new one: at its end, or in the middle between two.
 constexpr double longest_end = 1.313;
 constexpr double longest_gap = 1.672;
-/// Lines are sampled at this part of the step.
-constexpr double sample_share = 0.25;
-/// A sample stands for this much of its line to both sides, relative to the step: a little more than half of it.
-constexpr double sample_reach = 0.51 * sample_share;
-/// Cells of samples, relative to the step: about two along each axis hold what is asked for.
-constexpr double cell_side = 1.5;
-/// The crossing segments of two lines: middle of the one and begin of the other are nearer than this.
-constexpr double segment_reach = 3 * sample_share;
-/// Lines are parallel if the cosine between them is above this, on one side of the surface if that of the normals is.
-constexpr double parallel = 0.707;
-constexpr double same_side = 0.3;
-/// Error of a step of the integration, relative to the step of the net.
-constexpr double relative_tolerance = 1e-7;
-/// A line ends after this many steps of the net at the latest.
-constexpr double longest_line = 400.0;
-constexpr std::size_t most_line_steps = 40'000;
-/// Newton's method on (s1, s2).
-constexpr int most_corrections = 12;
-constexpr double relative_correction = 1e-11;
-/// A crossing this little beyond the end of a line, relative to the step, is on it.
-constexpr double relative_end = 1e-6;
-
-/// Lengths that differ by less than this share of the step are equal.
-constexpr double tie = 1e-4;
 /// Points between neighbouring crossings.
 constexpr int between_points = 3;
 
-struct Sample {
-    double s = 0.0;  ///< signed arc length from the line's seed
-    Vector2 parameters;
-    Vector3 point, tangent, normal;
-};
-
-/// A place where a line shall start.
-struct Seed {
-    double distance = 0.0;  ///< from the start of the net, along lines, mm
-    Vector2 parameters = Vector2::Zero();
-    CurvatureFamily family = CurvatureFamily::maximum;
-    std::optional<Vector3> one_way;
-    int line = -1;  ///< that it shall cross, at the arc length s
-    double s = 0.0;
-};
-
-struct Line {
-    CurvatureFamily family = CurvatureFamily::maximum;
-    TracedLine ahead, behind;
-    bool closed = false;
-    double low = 0.0, high = 0.0;     ///< arc lengths of its ends
-    double distance = 0.0;            ///< of its seed from the start, along lines
-    std::vector<Sample> samples;      ///< increasing s
-    std::map<double, int> crossings;  ///< node by arc length
-    std::vector<double> refused;      ///< arc lengths at which a line was tried
-    bool opened = false;              ///< was closed and has been cut
-    std::vector<Seed> seeds;          ///< where lines that cross it are missing
-    bool changed = true;              ///< since `seeds` were found
-
-    /// Parameters at the signed arc length s; a little beyond its ends the line goes straight on.
-    Vector2 at(double s) const {
-        const auto [step, x, over] = locate(s);
-        return step->at(x) + over * step->rate(x);
-    }
-    /// Their derivative by s.
-    Vector2 rate(double s) const {
-        const auto [step, x, over] = locate(s);
-        return (on_ahead(s) ? 1.0 : -1.0) * step->rate(x);
-    }
-
-private:
-    bool on_ahead(double s) const { return closed || opened || s >= 0.0 || behind.steps.empty(); }
-
-    /// The step that holds s, the fraction of it, and the arc length beyond its end, along the part's own direction.
-    std::tuple<const TracedStep*, double, double> locate(double s) const {
-        const TracedLine& part = on_ahead(s) ? ahead : behind;
-        double t = on_ahead(s) ? s : -s;
-        if (closed || opened) t -= part.length * std::floor(t / part.length);
-        const TracedStep& step = part.steps[part.step_at(t)];
-        const double x = std::clamp((t - step.s) / step.length, 0.0, 1.0);
-        return {&step, x, t - step.s - x * step.length};
-    }
-};
-
-/// Sample of a line, by their numbers.
-struct SampleEntry {
-    int line, sample;
-};
-using SampleGrid = PointCells<SampleEntry>;
-
-class NetBuilder {
-public:
-    NetBuilder(const LineTracer& tracer, const LineNetOptions& options, const Progress& progress)
-        : tracer_(tracer),
-          options_(options),
-          progress_(progress),
-          step_(options.step),
-          grids_{SampleGrid(cell_side * step_), SampleGrid(cell_side * step_)} {}
-
-    LineNet build(const NetStart& start);
-
-private:
-    static int index(CurvatureFamily family) { return family == CurvatureFamily::maximum ? 0 : 1; }
-    static CurvatureFamily other(CurvatureFamily family) {
-        return family == CurvatureFamily::maximum ? CurvatureFamily::minimum : CurvatureFamily::maximum;
-    }
-    TraceOptions trace_options() const {
-        return {.length = longest_line * step_,
-                .tolerance = relative_tolerance * step_,
-                .longest_step = step_,
-                .closing_distance = 1e-3 * step_,
-                .most_steps = most_line_steps};
-    }
-    bool crowded(const Sample& sample, CurvatureFamily family, double distance) const;
-    bool near(const Sample& sample, const Line& line, int number, double distance) const;
-    std::optional<Line> trace(const Seed& seed) const;
-    bool add_lines(const std::vector<Seed>& seeds);
-    void sample(Line& line) const;
-    void grow(std::vector<Line>& lines) const;
-    void find_crossings(int number);
-    std::optional<std::pair<double, double>> crossing(const Line& a, double sa, const Line& b, double sb) const;
-    void add_crossing(int a, double sa, int b, double sb);
-    std::vector<Seed> seeds_of(int number) const;
-    void refuse(const Seed& seed);
-    Vector2 difference(Vector2 d) const;
-
-    const LineTracer& tracer_;
-    const LineNetOptions& options_;
-    const Progress& progress_;
-    double step_;
-    std::vector<Line> lines_;
-    std::array<SampleGrid, 2> grids_;
-    LineNet net_;
-};
-
-/// Difference of parameters by the short way around where the surface is closed.
-Vector2 NetBuilder::difference(Vector2 d) const {
-    const Face& face = tracer_.face();
-    const ParameterBox domain = face.surface.domain();
-    if (face.u_closed || face.u_periodic) d.x() -= domain.u.length() * std::round(d.x() / domain.u.length());
-    if (face.v_closed || face.v_periodic) d.y() -= domain.v.length() * std::round(d.y() / domain.v.length());
-    return d;
-}
-
-/// Whether a sample of another line, across of it, is nearer than `distance`: lines are compared where they run side by
-/// side on one side of the surface.
-bool NetBuilder::near(const Sample& sample, const Line& line, int number, double distance) const {
-    const Sample& other = line.samples[number];
-    if (sample.normal.dot(other.normal) < same_side || std::abs(sample.tangent.dot(other.tangent)) < parallel)
-        return false;
-    const Vector3 d = sample.point - other.point;
-    const double along = d.dot(other.tangent), reach = sample_reach * step_;
-    const bool inner = number > 0 && number + 1 < static_cast<int>(line.samples.size());
-    if (inner && std::abs(along) > reach) return false;
-    return (d - std::clamp(along, -reach, reach) * other.tangent).norm() < distance;
-}
-
-bool NetBuilder::crowded(const Sample& sample, CurvatureFamily family, double distance) const {
-    bool found = false;
-    grids_[index(family)].near(sample.point, distance + sample_reach * step_, [&](const SampleEntry& entry) {
-        found = found || near(sample, lines_[entry.line], entry.sample, distance);
-    });
-    return found;
-}
-
-void NetBuilder::sample(Line& line) const {
-    const double spacing = sample_share * step_;
-    const auto add = [&](double s) {
-        const Vector2 p = line.at(s);
-        const FieldValue value = tracer_.value(tracer_.wrapped(p), line.family);
-        const Vector2 rate = line.rate(s);
-        line.samples.push_back({s, tracer_.wrapped(p), value.point,
-                                (value.r_u * rate.x() + value.r_v * rate.y()).normalized(), value.normal});
-    };
-    const int below = static_cast<int>(std::floor(-line.low / spacing)),
-              above = static_cast<int>(std::floor(line.high / spacing));
-    if (line.low < -below * spacing - 1e-9 * step_) add(line.low);
-    for (int i = -below; i <= above; ++i) add(i * spacing);
-    if (line.high > above * spacing + 1e-9 * step_) add(line.high);
-}
-
-std::optional<Line> NetBuilder::trace(const Seed& seed) const {
-    const FieldValue value = tracer_.value(seed.parameters, seed.family);
-    if (tracer_.indeterminate(value)) return std::nullopt;
-    const auto as_sample = [](const FieldValue& v) -> Sample { return {0.0, {}, v.point, v.tangent, v.normal}; };
-    if (crowded(as_sample(value), seed.family, least_start_distance * step_)) return std::nullopt;
-    TraceOptions options = trace_options();
-    // The integration need not go on where the line will be cut anyway.
-    int near = 0;
-    options.stop = [&](const FieldValue& v) {
-        near = crowded(as_sample(v), seed.family, 0.8 * least_distance * step_) ? near + 1 : 0;
-        return near > 1;
-    };
-    Line line;
-    line.family = seed.family;
-    line.distance = seed.distance;
-    line.ahead = tracer_.trace(seed.parameters, seed.family, seed.one_way.value_or(value.tangent), options, progress_);
-    line.closed = line.ahead.ended == CurveEnd::closed;
-    near = 0;
-    if (!seed.one_way && !line.closed)
-        line.behind = tracer_.trace(seed.parameters, seed.family, -value.tangent, options, progress_);
-    // All of the line may lie behind: then it is turned around.
-    if (line.ahead.steps.empty()) std::swap(line.ahead, line.behind);
-    line.high = line.ahead.steps.empty() ? 0.0 : line.ahead.length;
-    line.low = line.behind.steps.empty() ? 0.0 : -line.behind.length;
-    if (!(line.high - line.low > sample_share * step_)) return std::nullopt;
-    sample(line);
-    return line;
-}
-
-/// Lets lines grow from their seeds at the same pace, and ends each where it comes near to a line of its family that
-/// was there before. What reaches a place first does not depend on the order of the lines.
-void NetBuilder::grow(std::vector<Line>& lines) const {
-    const double distance = least_distance * step_;
-    struct Event {
-        double pace;
-        int line, sample;
-    };
-    std::vector<Event> events;
-    for (std::size_t l = 0; l < lines.size(); ++l)
-        for (std::size_t i = 0; i < lines[l].samples.size(); ++i) {
-            const double s = lines[l].samples[i].s;
-            // A closed line grows to both sides.
-            const double pace = lines[l].closed ? std::min(s, lines[l].high - s) : std::abs(s);
-            events.push_back({pace, static_cast<int>(l), static_cast<int>(i)});
-        }
-    std::stable_sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.pace < b.pace; });
-    struct Ends {
-        int low, high;  ///< last samples reached
-        bool low_open = true, high_open = true;
-    };
-    std::vector<Ends> ends;
-    std::vector<int> origin;
-    for (const Line& line : lines) {
-        const auto at =
-            std::find_if(line.samples.begin(), line.samples.end(), [](const Sample& x) { return x.s >= 0.0; });
-        origin.push_back(static_cast<int>(at - line.samples.begin()));
-        ends.push_back({0, static_cast<int>(line.samples.size()) - 1});
-    }
-    std::array<SampleGrid, 2> grown = {SampleGrid(cell_side * step_), SampleGrid(cell_side * step_)};
-    std::vector<char> cut(lines.size(), 0);
-    for (std::size_t begin = 0; begin < events.size();) {
-        std::size_t end = begin;
-        while (end < events.size() && events[end].pace <= events[begin].pace + tie * step_) ++end;
-        std::vector<Event> reached;
-        for (std::size_t e = begin; e < end; ++e) {
-            const Event& event = events[e];
-            const Line& line = lines[event.line];
-            const Sample& sample = line.samples[event.sample];
-            Ends& own = ends[event.line];
-            if (event.sample < own.low || event.sample > own.high) continue;
-            bool stop = event.sample != origin[event.line] && crowded(sample, line.family, distance);
-            grown[index(line.family)].near(sample.point, distance + sample_reach * step_,
-                                           [&](const SampleEntry& entry) {
-                                               if (stop) return;
-                                               const Line& other = lines[entry.line];
-                                               if (entry.line == event.line) {
-                                                   double between = std::abs(other.samples[entry.sample].s - sample.s);
-                                                   if (line.closed) between = std::min(between, line.high - between);
-                                                   if (between < 2 * step_) return;
-                                               }
-                                               stop = near(sample, other, entry.sample, distance);
-                                           });
-            reached.push_back(event);
-            if (!stop) continue;
-            const bool above = event.sample > origin[event.line] && !(line.closed && sample.s > 0.5 * line.high);
-            cut[event.line] = 1;
-            if (above)
-                own.high = std::min(own.high, event.sample);
-            else
-                own.low = std::max(own.low, event.sample);
-        }
-        for (const Event& event : reached)
-            grown[index(lines[event.line].family)].add(lines[event.line].samples[event.sample].point,
-                                                       {event.line, event.sample});
-        begin = end;
-    }
-    for (std::size_t l = 0; l < lines.size(); ++l) {
-        Line& line = lines[l];
-        if (line.closed && cut[l]) {
-            // Two open branches remain: what lies beyond the far cut is reached from the seed the other way.
-            line.opened = true;
-            std::vector<Sample> samples;
-            for (int i = ends[l].low > 0 ? ends[l].low : static_cast<int>(line.samples.size());
-                 i < static_cast<int>(line.samples.size()); ++i) {
-                samples.push_back(line.samples[i]);
-                samples.back().s -= line.ahead.length;
-            }
-            if (!samples.empty() && samples.back().s > -1e-9 * step_) samples.pop_back();
-            const int last = std::min<int>(ends[l].high, static_cast<int>(line.samples.size()) - 1);
-            for (int i = 0; i <= last; ++i) samples.push_back(line.samples[i]);
-            line.samples = std::move(samples);
-            line.closed = false;
-        } else {
-            line.samples =
-                std::vector<Sample>(line.samples.begin() + ends[l].low, line.samples.begin() + ends[l].high + 1);
-        }
-        line.low = line.samples.front().s;
-        line.high = line.samples.back().s;
-    }
-}
+}  // namespace
 
 /// No line shall start there again.
-void NetBuilder::refuse(const Seed& seed) {
+void NetBuilder::refuse(const NetSeed& seed) {
     if (seed.line < 0) return;
     lines_[seed.line].refused.push_back(seed.s);
     lines_[seed.line].changed = true;
 }
 
 /// Adds the lines of seeds that are equally far from the start. False if none of them can start.
-bool NetBuilder::add_lines(const std::vector<Seed>& seeds) {
-    std::vector<Line> lines;
-    std::vector<const Seed*> origins;
-    for (const Seed& seed : seeds)
-        if (std::optional<Line> line = trace(seed)) {
+bool NetBuilder::add_lines(const std::vector<NetSeed>& seeds) {
+    std::vector<NetLine> lines;
+    std::vector<const NetSeed*> origins;
+    for (const NetSeed& seed : seeds)
+        if (std::optional<NetLine> line = trace(seed)) {
             lines.push_back(std::move(*line));
             origins.push_back(&seed);
         } else {
@@ -353,7 +48,7 @@ bool NetBuilder::add_lines(const std::vector<Seed>& seeds) {
         const int number = static_cast<int>(lines_.size());
         lines_.push_back(std::move(lines[i]));
         find_crossings(number);
-        const Line& line = lines_.back();
+        const NetLine& line = lines_.back();
         for (std::size_t k = 0; k < line.samples.size(); ++k)
             grids_[index(line.family)].add(line.samples[k].point, {number, static_cast<int>(k)});
         added = true;
@@ -366,87 +61,15 @@ bool NetBuilder::add_lines(const std::vector<Seed>& seeds) {
     return added;
 }
 
-/// Newton's method (thesis (3.48)) on the parameters of both lines.
-std::optional<std::pair<double, double>> NetBuilder::crossing(const Line& a, double sa, const Line& b,
-                                                              double sb) const {
-    for (int i = 0; i < most_corrections; ++i) {
-        const Vector2 f = difference(a.at(sa) - b.at(sb));
-        Matrix2 jacobian;
-        jacobian << a.rate(sa), -b.rate(sb);
-        const Vector2 correction = jacobian.fullPivLu().solve(f);
-        if (!correction.allFinite() || correction.norm() > step_) return std::nullopt;
-        sa -= correction.x();
-        sb -= correction.y();
-        if (correction.norm() > relative_correction * step_) continue;
-        const auto within = [&](const Line& line, double s) {
-            const double slack = line.closed ? 0.01 * step_ : relative_end * step_;
-            return s >= line.low - slack && s <= line.high + slack;
-        };
-        return within(a, sa) && within(b, sb) ? std::optional(std::pair(sa, sb)) : std::nullopt;
-    }
-    return std::nullopt;
-}
-
-void NetBuilder::add_crossing(int a, double sa, int b, double sb) {
-    // A crossing is found from the segments on both sides of it; closed lines meet theirs at both ends.
-    const auto known = [&](const Line& line, double s) {
-        const auto above = line.crossings.lower_bound(s - 0.01 * step_);
-        return above != line.crossings.end() && above->first < s + 0.01 * step_;
-    };
-    if (known(lines_[a], sa) && known(lines_[b], sb)) return;
-    if (lines_[a].closed && sa > lines_[a].high - 0.01 * step_ && known(lines_[a], sa - lines_[a].high)) return;
-    if (lines_[b].closed && sb > lines_[b].high - 0.01 * step_ && known(lines_[b], sb - lines_[b].high)) return;
-    const Vector2 p = tracer_.wrapped(lines_[a].at(sa));
-    const int node = static_cast<int>(net_.nodes.size());
-    const auto distance = [](const Line& line, double s) {
-        return line.distance + (line.closed ? std::min(std::abs(s), std::abs(line.high - s)) : std::abs(s));
-    };
-    net_.nodes.push_back(
-        {p, tracer_.face().surface.value(p.x(), p.y()), std::min(distance(lines_[a], sa), distance(lines_[b], sb))});
-    lines_[a].crossings.emplace(sa, node);
-    lines_[b].crossings.emplace(sb, node);
-    lines_[a].changed = lines_[b].changed = true;
-}
-
-void NetBuilder::find_crossings(int number) {
-    const Line& line = lines_[number];
-    const SampleGrid& grid = grids_[1 - index(line.family)];
-    // First guesses by segments between samples; then exactly.
-    std::vector<std::tuple<double, int, double>> guesses;
-    for (std::size_t i = 0; i + 1 < line.samples.size(); ++i) {
-        const Sample &p = line.samples[i], &q = line.samples[i + 1];
-        const Vector3 d = q.point - p.point;
-        grid.near(0.5 * (p.point + q.point), segment_reach * step_, [&](const SampleEntry& entry) {
-            const Line& across = lines_[entry.line];
-            if (entry.sample + 1 >= static_cast<int>(across.samples.size())) return;
-            const Sample &r = across.samples[entry.sample], &t = across.samples[entry.sample + 1];
-            if (p.normal.dot(r.normal) < same_side) return;
-            // Nearest points of the two segments' lines.
-            const Vector3 e = t.point - r.point, w = p.point - r.point;
-            const double dd = d.dot(d), de = d.dot(e), ee = e.dot(e), dw = d.dot(w), ew = e.dot(w);
-            const double determinant = dd * ee - de * de;
-            if (!(determinant > 0.01 * dd * ee)) return;
-            const double x = (de * ew - ee * dw) / determinant, y = (dd * ew - de * dw) / determinant;
-            if (x < -0.1 || x > 1.1 || y < -0.1 || y > 1.1) return;
-            if ((w + x * d - y * e).norm() > 0.25 * std::sqrt(dd + ee)) return;
-            guesses.emplace_back(p.s + x * (q.s - p.s), entry.line, r.s + y * (t.s - r.s));
-        });
-    }
-    std::sort(guesses.begin(), guesses.end());
-    for (const auto& [s, across, t] : guesses)
-        if (const auto exact = crossing(lines_[number], s, lines_[across], t))
-            add_crossing(number, exact->first, across, exact->second);
-}
-
 /// Places on a line where crossing lines are missing.
-std::vector<Seed> NetBuilder::seeds_of(int number) const {
-    const Line& line = lines_[number];
-    std::vector<Seed> seeds;
+std::vector<NetSeed> NetBuilder::seeds_of(int number) const {
+    const NetLine& line = lines_[number];
+    std::vector<NetSeed> seeds;
     const auto add = [&](double s) {
         if (line.closed) s -= line.high * std::floor(s / line.high);
         if (s < line.low || s > line.high) return;
         for (const double refused : line.refused)
-            if (std::abs(refused - s) < 0.01 * step_) return;
+            if (std::abs(refused - s) < same_crossing * step_) return;
         const double way = line.closed ? std::min(s, line.high - s) : std::abs(s);
         seeds.push_back(
             {line.distance + way, tracer_.wrapped(line.at(s)), other(line.family), std::nullopt, number, s});
@@ -475,7 +98,7 @@ std::vector<Seed> NetBuilder::seeds_of(int number) const {
 }
 
 LineNet NetBuilder::build(const NetStart& start) {
-    std::vector<Seed> seeds;
+    std::vector<NetSeed> seeds;
     if (start.spokes.empty()) {
         for (const CurvatureFamily family : {CurvatureFamily::maximum, CurvatureFamily::minimum})
             seeds.push_back({0.0, start.parameters, family, std::nullopt, -1, 0.0});
@@ -494,19 +117,19 @@ LineNet NetBuilder::build(const NetStart& start) {
         for (std::size_t i = 0; i < lines_.size(); ++i) {
             if (lines_[i].changed) lines_[i].seeds = seeds_of(static_cast<int>(i));
             lines_[i].changed = false;
-            for (const Seed& seed : lines_[i].seeds) nearest = std::min(nearest, seed.distance);
+            for (const NetSeed& seed : lines_[i].seeds) nearest = std::min(nearest, seed.distance);
         }
-        for (const Line& line : lines_)
+        for (const NetLine& line : lines_)
             std::copy_if(line.seeds.begin(), line.seeds.end(), std::back_inserter(seeds),
-                         [&](const Seed& seed) { return seed.distance <= nearest + tie * step_; });
+                         [&](const NetSeed& seed) { return seed.distance <= nearest + tie * step_; });
         if (seeds.empty()) break;
         add_lines(seeds);
     }
     net_.lines = static_cast<int>(lines_.size());
-    for (const Line& line : lines_) {
+    for (const NetLine& line : lines_) {
         const auto join = [&](double s, int from, double t, int to) {
             NetEdge edge{from, to, line.family, t - s};
-            for (int k = 1; k <= between_points; ++k) {
+            for (int k = 1; options_.drawn && k <= between_points; ++k) {
                 double at = s + (t - s) * k / (between_points + 1);
                 if (line.closed && at > line.high) at -= line.high;
                 const Vector2 p = tracer_.wrapped(line.at(at));
@@ -523,8 +146,6 @@ LineNet NetBuilder::build(const NetStart& start) {
     }
     return std::move(net_);
 }
-
-}  // namespace
 
 LineNet line_net(const LineTracer& tracer, const NetStart& start, const LineNetOptions& options,
                  const Progress& progress) {

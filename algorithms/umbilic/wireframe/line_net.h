@@ -46,6 +46,7 @@ struct LineNet {
 struct LineNetOptions {
     double step = 0.0;  ///< distance of neighbouring lines, mm
     std::size_t most_lines = 0;
+    bool drawn = true;  ///< with the points between crossings
 };
 
 /// Lines of both families at about equal distances over a face, and their crossings (thesis 3.7.2, Figures 3-8 and

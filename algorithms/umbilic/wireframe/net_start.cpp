@@ -2,7 +2,6 @@
 #include <umbilic/wireframe/net_start.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -17,14 +16,17 @@ namespace umbilic {
 
 namespace {
 
-/// Two distances that differ by less than this share of the step are a tie, which nothing in the shape decides.
+/// How far beside the centroid, relative to the radius, the net begins: what is equally near to the centroid differs by
+/// more than rounding from there.
+constexpr double lean_share = 3e-3;
+/// Two distances that differ by less than this share of the step are a tie.
 constexpr double tie = 0.05;
 /// Axes are told apart if their variances differ by more than this share.
 constexpr double distinct_variance = 0.02;
 /// Nodes of the grid on which the search for the point nearest to the centroid starts, along each parameter.
 constexpr int fewest_grid = 8, most_grid = 40, grid_per_span = 3;
 /// Best places of the grid that are followed.
-constexpr int followed = 4;
+constexpr int followed = 12;
 constexpr int most_corrections = 60;
 /// Least share of the metric in a convex squared distance.
 constexpr double least_convexity = 1e-6;
@@ -32,64 +34,13 @@ constexpr double least_convexity = 1e-6;
 constexpr double relative_foot = 1e-13;
 /// Start of the half-lines from a star, relative to the step.
 constexpr double spoke_start = 1e-3;
+/// A net begins no nearer to a pole of the parametrisation than this, relative to the step.
+constexpr double least_pole_distance = 0.213;
+/// The first lines pass such a pole at this distance, relative to the step: not half a step, or the middle between two
+/// of them would lead through it.
+constexpr double pole_passage = 0.37;
 /// Border places that are tried.
 constexpr int most_border_starts = 16;
-
-constexpr std::array<double, 3> gauss_node = {-0.7745966692414834, 0.0, 0.7745966692414834};
-constexpr std::array<double, 3> gauss_weight = {0.5555555555555556, 0.8888888888888888, 0.5555555555555556};
-
-/// Points with weights that depend on the shape alone.
-struct Cloud {
-    std::vector<Vector3> points;
-    std::vector<double> weights;
-
-    Vector3 centroid() const {
-        Vector3 sum = Vector3::Zero();
-        double weight = 0.0;
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            sum += weights[i] * points[i];
-            weight += weights[i];
-        }
-        return weight > 0.0 ? Vector3(sum / weight) : sum;
-    }
-};
-
-Cloud border_cloud(const FaceBorder& border) {
-    Cloud cloud;
-    for (const std::vector<BorderNode>& loop : border.loops)
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            const BorderNode& node = loop[i];
-            if (node.kind != BorderKind::border) continue;
-            // Trapezoidal rule on the equal parts of the stretch.
-            const double part = node.length / (between_count + 1);
-            cloud.points.push_back(node.point);
-            cloud.weights.push_back(0.5 * part);
-            for (const Vector3& p : node.between) {
-                cloud.points.push_back(p);
-                cloud.weights.push_back(part);
-            }
-            cloud.points.push_back(loop[(i + 1) % loop.size()].point);
-            cloud.weights.push_back(0.5 * part);
-        }
-    return cloud;
-}
-
-Cloud area_cloud(const NurbsSurface& surface) {
-    Cloud cloud;
-    const std::vector<double>&u = surface.u_knots().breaks(), &v = surface.v_knots().breaks();
-    for (std::size_t i = 0; i + 1 < u.size(); ++i)
-        for (std::size_t j = 0; j + 1 < v.size(); ++j)
-            for (int g = 0; g < 3; ++g)
-                for (int h = 0; h < 3; ++h) {
-                    const double du = u[i + 1] - u[i], dv = v[j + 1] - v[j];
-                    const SurfaceDerivatives d = surface.derivatives(u[i] + 0.5 * du * (1 + gauss_node[g]),
-                                                                     v[j] + 0.5 * dv * (1 + gauss_node[h]), 1);
-                    cloud.points.push_back(d.r());
-                    cloud.weights.push_back(gauss_weight[g] * gauss_weight[h] * du * dv *
-                                            d.r_u().cross(d.r_v()).norm());
-                }
-    return cloud;
-}
 
 bool inside(const Face& face, const Vector2& p) {
     return face.surface.domain().contains(p.x(), p.y()) &&
@@ -143,34 +94,43 @@ std::optional<Vector2> nearest(const LineTracer& tracer, Vector2 p, const Vector
     return std::nullopt;
 }
 
-/// The principal axis of a cloud that is farthest from the normal, or, where the axes are alike, the direction of the
-/// point farthest from the centroid.
-Vector3 tangential_axis(const Cloud& cloud, const Vector3& centroid, const Vector3& normal) {
+/// The principal axis of the border, or surface, that is farthest from the normal, or, where the axes are alike, the
+/// direction of the farthest corner.
+Vector3 tangential_axis(const FaceFrame& frame, const Vector3& normal) {
+    const auto tangential = [&](const Vector3& d) -> Vector3 { return d - d.dot(normal) * normal; };
     Matrix3 covariance = Matrix3::Zero();
-    Vector3 farthest = Vector3::Zero();
-    for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-        const Vector3 d = cloud.points[i] - centroid, t = d - d.dot(normal) * normal;
-        covariance += cloud.weights[i] * t * t.transpose();
-        if (t.norm() > farthest.norm()) farthest = t;
+    for (std::size_t i = 0; i < frame.points.points.size(); ++i) {
+        const Vector3 t = tangential(frame.points.points[i] - frame.centroid);
+        covariance += frame.points.weights[i] * t * t.transpose();
     }
     const Eigen::SelfAdjointEigenSolver<Matrix3> solver(covariance);
     if (solver.eigenvalues()[2] > (1 + distinct_variance) * solver.eigenvalues()[1])
         return solver.eigenvectors().col(2);
-    if (farthest.norm() > 0.0) return farthest.normalized();
+    for (const Vector3& way : {tangential(frame.corner), tangential(frame.lean)})
+        if (way.norm() > tie * frame.corner.norm()) return way.normalized();
     return normal.unitOrthogonal();
+}
+
+/// The pole of the parametrisation nearest to a place.
+std::optional<Vector3> nearest_pole(const FaceBorder& border, const Vector3& place) {
+    std::optional<Vector3> nearest;
+    for (const std::vector<BorderNode>& loop : border.loops)
+        for (const BorderNode& node : loop)
+            if (node.kind == BorderKind::pole && (!nearest || (node.point - place).norm() < (*nearest - place).norm()))
+                nearest = node.point;
+    return nearest;
 }
 
 }  // namespace
 
-std::optional<NetStart> net_start(const Face& face, const FaceBorder& border, const FaceUmbilics& umbilics,
-                                  double step) {
-    Cloud cloud = border_cloud(border);
-    const Cloud edge_cloud = cloud;
-    if (cloud.points.empty()) cloud = area_cloud(face.surface);
-    const Vector3 centroid = cloud.centroid();
+std::optional<NetStart> net_start(const Face& face, const FaceBorder& border, const FaceFrame& frame,
+                                  const FaceUmbilics& umbilics, double step) {
+    // A little beside the centroid: of points that are equally near to it one is nearer to this one.
+    const Vector3 target = frame.centroid + lean_share * frame.radius * frame.lean;
+    const std::vector<Vector3> border_places = border_points(border).points;
     const auto border_distance = [&](const Vector3& p) {
         double distance = std::numeric_limits<double>::infinity();
-        for (const Vector3& q : edge_cloud.points) distance = std::min(distance, (q - p).norm());
+        for (const Vector3& q : border_places) distance = std::min(distance, (q - p).norm());
         return distance;
     };
 
@@ -181,7 +141,7 @@ std::optional<NetStart> net_start(const Face& face, const FaceBorder& border, co
         if (umbilic.kind.type != UmbilicType::star || !umbilic.certified || !inside(face, {umbilic.at.u, umbilic.at.v}))
             continue;
         if (!(border_distance(umbilic.point) > step)) continue;
-        const double distance = (umbilic.point - centroid).norm();
+        const double distance = (umbilic.point - target).norm();
         if (distance < first) {
             second = first;
             first = distance;
@@ -204,46 +164,66 @@ std::optional<NetStart> net_start(const Face& face, const FaceBorder& border, co
         const FieldValue value = lines.value(p, CurvatureFamily::maximum);
         return lines.indeterminate(value);
     });
-    std::vector<std::pair<double, Vector2>> candidates;
-    for (const Vector2& p : places) candidates.emplace_back((face.surface.value(p.x(), p.y()) - centroid).norm(), p);
     const auto nearer = [](const auto& a, const auto& b) { return a.first < b.first; };
-    std::sort(candidates.begin(), candidates.end(), nearer);
-    candidates.resize(std::min<std::size_t>(candidates.size(), followed));
-    for (auto& [distance, p] : candidates) {
-        const std::optional<Vector2> foot = nearest(lines, p, centroid);
-        if (!foot || !inside(face, *foot)) {
-            distance = std::numeric_limits<double>::infinity();
-            continue;
+    const auto nearest_to = [&](const Vector3& wanted) -> std::optional<Vector2> {
+        std::vector<std::pair<double, Vector2>> candidates;
+        for (const Vector2& p : places) candidates.emplace_back((face.surface.value(p.x(), p.y()) - wanted).norm(), p);
+        std::sort(candidates.begin(), candidates.end(), nearer);
+        candidates.resize(std::min<std::size_t>(candidates.size(), followed));
+        std::optional<std::pair<double, Vector2>> best;
+        for (const auto& candidate : candidates) {
+            const std::optional<Vector2> foot = nearest(lines, candidate.second, wanted);
+            if (!foot || !inside(face, *foot)) continue;
+            const double distance = (face.surface.value(foot->x(), foot->y()) - wanted).norm();
+            if (!best || distance < best->first) best = {distance, *foot};
         }
-        p = *foot;
-        distance = (face.surface.value(p.x(), p.y()) - centroid).norm();
+        return best ? std::optional(best->second) : std::nullopt;
+    };
+    std::optional<Vector2> foot = nearest_to(target);
+    // Next to a pole of the parametrisation lines cannot start, nor go through: they pass beside it.
+    std::optional<Vector3> pole;
+    if (foot) {
+        const Vector3 point = face.surface.value(foot->x(), foot->y());
+        pole = nearest_pole(border, point);
+        if (pole && (*pole - point).norm() > least_pole_distance * step) pole.reset();
     }
-    std::stable_sort(candidates.begin(), candidates.end(), nearer);
-    std::optional<Vector2> foot;
-    if (!candidates.empty() && std::isfinite(candidates.front().first)) foot = candidates.front().second;
+    if (pole) {
+        const Vector3 out = *pole - frame.centroid;
+        const Vector3 beside = out.squaredNorm() * frame.lean - out.dot(frame.lean) * out;
+        foot = nearest_to(*pole + step * (beside.norm() > 0.0 ? beside.normalized() : out.unitOrthogonal()));
+    }
 
     NetStart start;
     if (all_umbilic) {
         const Vector2 at = foot.value_or(places[places.size() / 2]);
         const SurfaceDerivatives d = face.surface.derivatives(at.x(), at.y(), 1);
         if (!regular(d)) return std::nullopt;
-        start.field.axis = tangential_axis(cloud, centroid, unit_normal(d));
+        start.field.axis = tangential_axis(frame, unit_normal(d));
     }
     const LineTracer tracer(face, start.field);
-    if (foot) {
-        const FieldValue value = tracer.value(*foot, CurvatureFamily::maximum);
-        const bool away = !(border_distance(value.point) < tie * step);
-        // Next to a pole of the parametrisation lines cannot start.
-        const ParameterBox domain = face.surface.domain();
-        const bool pole = value.r_u.norm() * domain.u.length() < step || value.r_v.norm() * domain.v.length() < step;
-        if (!tracer.indeterminate(value) && away && !pole) {
-            start.parameters = *foot;
-            return start;
+    if (foot && pole) {
+        Vector3 way = Vector3::Zero();
+        for (const CurvatureFamily family : {CurvatureFamily::maximum, CurvatureFamily::minimum}) {
+            const Vector3 tangent = tracer.value(*foot, family).tangent;
+            way += std::copysign(pole_passage * step, tangent.dot(frame.lean)) * tangent;
         }
+        foot = nearest_to(*pole + way);
+    }
+    const auto fit = [&](const std::optional<Vector2>& place) {
+        if (!place) return false;
+        const FieldValue value = tracer.value(*place, CurvatureFamily::maximum);
+        return !tracer.indeterminate(value) && !(border_distance(value.point) < tie * step);
+    };
+    // Where a face bulges out of a small border, the centroid of its area is nearer to its middle.
+    if (!fit(foot) && frame.area_centroid)
+        foot = nearest_to(*frame.area_centroid + lean_share * frame.radius * frame.lean);
+    if (fit(foot)) {
+        start.parameters = *foot;
+        return start;
     }
 
     // A surface without border that is alike around its centroid: any point will do.
-    if (edge_cloud.points.empty())
+    if (border_places.empty())
         for (const Vector2& p : places)
             if (!tracer.indeterminate(tracer.value(p, CurvatureFamily::maximum))) {
                 start.parameters = p;
@@ -256,7 +236,7 @@ std::optional<NetStart> net_start(const Face& face, const FaceBorder& border, co
         for (std::size_t i = 0; i < loop.size(); ++i)
             if (loop[i].kind == BorderKind::border)
                 ways.push_back(
-                    {(loop[i].point - centroid).norm(), {&loop[i], loop[(i + 1) % loop.size()].point - loop[i].point}});
+                    {(loop[i].point - target).norm(), {&loop[i], loop[(i + 1) % loop.size()].point - loop[i].point}});
     std::stable_sort(ways.begin(), ways.end(), nearer);
     if (ways.size() > most_border_starts) ways.resize(most_border_starts);
     for (const auto& [distance, way] : ways) {

@@ -15,6 +15,7 @@
 #include <umbilic/umbilics/find.h>
 #include <umbilic/wireframe/border_nodes.h>
 #include <umbilic/wireframe/completion.h>
+#include <umbilic/wireframe/face_frame.h>
 #include <umbilic/wireframe/line_net.h>
 #include <umbilic/wireframe/net_start.h>
 
@@ -76,8 +77,19 @@ std::array<bool, 2> joined_to_itself(const Face& face, const FaceBorder& border)
     return result;
 }
 
-Completion mesh(const Face& face, const FaceBorder& border, const FaceUmbilics* found, const WireframeOptions& options,
-                double step, const Progress& progress) {
+/// Of the lengths of all borders, if there are any.
+std::optional<Vector3> centroid(const std::vector<FaceBorder>& borders) {
+    WeightedPoints all;
+    for (const FaceBorder& border : borders) {
+        const WeightedPoints own = border_points(border);
+        all.points.insert(all.points.end(), own.points.begin(), own.points.end());
+        all.weights.insert(all.weights.end(), own.weights.begin(), own.weights.end());
+    }
+    return all.points.empty() ? std::nullopt : std::optional(all.centroid());
+}
+
+Completion mesh(const Face& face, const FaceBorder& border, const FaceFrame& frame, const FaceUmbilics* found,
+                const WireframeOptions& options, double step, const Progress& progress) {
     FaceUmbilics umbilics;
     const bool small = face.area < 0.25 * step * step;
     if (options.umbilics && !small) umbilics = found ? *found : find_umbilics(face, {.certificate = false}, progress);
@@ -85,25 +97,28 @@ Completion mesh(const Face& face, const FaceBorder& border, const FaceUmbilics* 
     LineField field;
     // A face smaller than a cell has no room for lines.
     if (!small)
-        if (const std::optional<NetStart> start = net_start(face, border, umbilics, step)) {
+        if (const std::optional<NetStart> start = net_start(face, border, frame, umbilics, step)) {
             field = start->field;
             const double lines = 16 + options.most_nodes * std::sqrt(face.area) / step;
-            net = line_net(LineTracer(face, field), *start,
-                           {.step = step, .most_lines = static_cast<std::size_t>(std::min(lines, 1e6))}, progress);
+            net = line_net(
+                LineTracer(face, field), *start,
+                {.step = step, .most_lines = static_cast<std::size_t>(std::min(lines, 1e6)), .drawn = options.drawn},
+                progress);
         }
-    return complete(face, border, net, field, {.step = step, .most_nodes = budget(face, border, options, step)},
+    return complete(face, border, frame, net, field,
+                    {.step = step, .most_nodes = budget(face, border, options, step), .drawn = options.drawn},
                     progress);
 }
 
-Completion face_wireframe(const Face& face, const FaceBorder& border, const FaceUmbilics* found,
+Completion face_wireframe(const Face& face, const FaceBorder& border, const FaceFrame& frame, const FaceUmbilics* found,
                           const WireframeOptions& options, double step, const Progress& progress) {
     const auto [u, v] = joined_to_itself(face, border);
     if ((!u || face.u_closed || face.u_periodic) && (!v || face.v_closed || face.v_periodic))
-        return mesh(face, border, found, options, step, progress);
+        return mesh(face, border, frame, found, options, step, progress);
     Face closed = face;
     closed.u_closed = closed.u_closed || u;
     closed.v_closed = closed.v_closed || v;
-    return mesh(closed, border, found, options, step, progress);
+    return mesh(closed, border, frame, found, options, step, progress);
 }
 
 }  // namespace
@@ -124,13 +139,15 @@ Wireframe wireframe(const Model& model, const WireframeOptions& options, const P
     std::vector<std::size_t> open = wanted;
     for (int round = 0; round < border_rounds && !open.empty(); ++round) {
         const std::vector<FaceBorder> borders = border_nodes(adjacency, border_options, progress.part(0.05, 0.1));
+        const std::optional<Vector3> middle = centroid(borders);
         std::atomic<std::size_t> count = 0;
         const Progress faces = progress.part(0.1, 1.0);
         tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t k) {
             const std::size_t i = open[k];
             const FaceUmbilics* const found = options.umbilics_found.empty() ? nullptr : &options.umbilics_found[i];
             try {
-                done[i] = face_wireframe(model.faces[i], borders[i], found, options, result.step, faces);
+                const FaceFrame frame = face_frame(model.faces[i], borders[i], middle, model.size());
+                done[i] = face_wireframe(model.faces[i], borders[i], frame, found, options, result.step, faces);
             } catch (const NumericFailure& failure) {
                 done[i] = {};
                 done[i].wireframe.face = model.faces[i].number;

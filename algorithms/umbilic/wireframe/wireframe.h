@@ -64,6 +64,9 @@ struct WireframeOptions {
     bool umbilics = true;
     /// Nodes a face may have, as a multiple of its area / step^2, plus as many for its border.
     double most_nodes = 64.0;
+    /// Points of edges between their nodes, and the coverage. Without them edges are only pairs of nodes with a length,
+    /// and coverage and farthest are 0.
+    bool drawn = true;
     /// Umbilics as they were found before, one entry a face in the model's order; looked for if there are none.
     std::span<const FaceUmbilics> umbilics_found = {};
 };
