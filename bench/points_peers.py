@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Open3D on the trials of points_success, as its own tutorials join its parts:
 
-    ransac   FPFH features, RANSAC over their matches, point-to-point ICP
+    ransac   FPFH features, RANSAC over their matches, ICP
     fgr      FPFH features, fast global registration, ICP
     icp      ICP alone, from centroids laid on each other
 
@@ -27,75 +27,87 @@ import open3d as o3d
 registration = o3d.pipelines.registration
 
 SCALES = np.geomspace(0.3, 3.0, 12)
-VOXEL = 0.03  # of sqrt(area): 3000 points of a surface are some 0.02 apart
+VOXEL = 0.02  # of sqrt(area): 3000 points of a surface are as far apart
 
 
 def cloud_of(points):
     return o3d.geometry.PointCloud(o3d.utility.Vector3dVector(points))
 
 
-def prepared(points, voxel):
+def prepared(points, voxel, turn_normals=False):
     """Points with the same density on both sides, and their features."""
     cloud = cloud_of(points).voxel_down_sample(voxel)
-    cloud.estimate_normals(o3d.geometry.KDTreeSearchParamHybrid(radius=4 * voxel, max_nn=30))
+    cloud.estimate_normals(o3d.geometry.KDTreeSearchParamHybrid(radius=4 * voxel, max_nn=60))
     if len(cloud.points) > 15:
         cloud.orient_normals_consistent_tangent_plane(15)
-    features = registration.compute_fpfh_feature(cloud, o3d.geometry.KDTreeSearchParamHybrid(radius=10 * voxel, max_nn=100))
+    if turn_normals:
+        cloud.normals = o3d.utility.Vector3dVector(-np.asarray(cloud.normals))
+    features = registration.compute_fpfh_feature(
+        cloud, o3d.geometry.KDTreeSearchParamHybrid(radius=10 * voxel, max_nn=400))
     return cloud, features
 
 
-def ransac(suspect, original, voxel):
-    (cloud, features), (target, target_features) = prepared(suspect, voxel), original
-    if len(cloud.points) < 10:
-        return None
+def both_sides(register):
+    """Rough poses: which side of a cloud is outside is not known, and features depend on it."""
+
+    def poses(suspect, original, voxel):
+        for turn_normals in (False, True):
+            cloud, features = prepared(suspect, voxel, turn_normals)
+            if len(cloud.points) < 10:
+                continue
+            try:
+                yield register(cloud, features, *original, voxel).transformation
+            except RuntimeError:  # Open3D refuses where no features correspond, as with a wrong scale
+                continue
+
+    poses.__name__ = register.__name__
+    return poses
+
+
+@both_sides
+def ransac(cloud, features, target, target_features, voxel):
     return registration.registration_ransac_based_on_feature_matching(
-        cloud, target, features, target_features, True, 1.5 * voxel,
+        cloud, target, features, target_features, False, 1.5 * voxel,
         registration.TransformationEstimationPointToPoint(False), 3,
         [registration.CorrespondenceCheckerBasedOnEdgeLength(0.9),
          registration.CorrespondenceCheckerBasedOnDistance(1.5 * voxel)],
-        registration.RANSACConvergenceCriteria(100000, 0.999)).transformation
+        registration.RANSACConvergenceCriteria(100000, 0.999))
 
 
-def fgr(suspect, original, voxel):
-    (cloud, features), (target, target_features) = prepared(suspect, voxel), original
-    if len(cloud.points) < 10:
-        return None
+@both_sides
+def fgr(cloud, features, target, target_features, voxel):
     return registration.registration_fgr_based_on_feature_matching(
         cloud, target, features, target_features,
-        registration.FastGlobalRegistrationOption(maximum_correspondence_distance=1.5 * voxel)).transformation
+        registration.FastGlobalRegistrationOption(maximum_correspondence_distance=1.5 * voxel))
 
 
 def icp(suspect, original, voxel):
     start = np.eye(4)
     start[:3, 3] = np.asarray(original[0].points).mean(axis=0) - suspect.mean(axis=0)
-    return start
+    yield start
 
 
 METHODS = (ransac, fgr, icp)
 
 
-def aligned(suspect, points, target, voxel, size, rough, unknown):
-    """The best similarity over the scales: a rough pose, then ICP with every point."""
-    original = cloud_of(points)
+def aligned(suspect, target, voxel, size, rough, unknown):
+    """The best similarity over the scales: rough poses, each refined by ICP with every point."""
     best, best_residual = None, np.inf
+    # Point to plane is the more exact, but leaves the scale as it is.
+    estimation = (registration.TransformationEstimationPointToPoint(True) if unknown
+                  else registration.TransformationEstimationPointToPlane())
+    reach = 2 * voxel if rough is not icp else size  # ICP alone pairs every point, however far
     for factor in SCALES if unknown else [1.0]:
         scaled = factor * suspect
-        try:
-            start = rough(scaled, target, voxel)
-        except RuntimeError:  # Open3D refuses where no features correspond, as with a wrong scale
-            continue
-        if start is None:
-            continue
-        reach = 2 * voxel if rough is not icp else size  # ICP alone pairs every point, however far
-        found = registration.registration_icp(cloud_of(scaled), original, reach, start,
-                                              registration.TransformationEstimationPointToPoint(unknown),
-                                              registration.ICPConvergenceCriteria(max_iteration=100))
-        if found.fitness == 0.0:
-            continue
-        scale = factor * np.cbrt(np.linalg.det(found.transformation[:3, :3]))
-        residual = (found.inlier_rmse + (1.0 - found.fitness) * size) / scale  # in the suspect's unit
-        if residual < best_residual:
-            best, best_residual = found.transformation @ np.diag([factor] * 3 + [1.0]), residual
+        for start in rough(scaled, target, voxel):
+            found = registration.registration_icp(cloud_of(scaled), target[0], reach, start, estimation,
+                                                  registration.ICPConvergenceCriteria(max_iteration=100))
+            if found.fitness == 0.0:
+                continue
+            scale = factor * np.cbrt(np.linalg.det(found.transformation[:3, :3]))
+            residual = (found.inlier_rmse + (1.0 - found.fitness) * size) / scale  # in the suspect's unit
+            if residual < best_residual:
+                best, best_residual = found.transformation @ np.diag([factor] * 3 + [1.0]), residual
     return best
 
 
@@ -118,7 +130,7 @@ def trial(place, unknown):
     results = {}
     for method in METHODS:
         start = time.process_time()
-        found = aligned(suspect, original, target, VOXEL * size, size, method, unknown)
+        found = aligned(suspect, target, VOXEL * size, size, method, unknown)
         seconds = time.process_time() - start
         results[method.__name__] = (succeeds(found, place, exact, scale, size), seconds)
     return results
