@@ -14,7 +14,7 @@ namespace umbilic::bench {
 namespace {
 
 constexpr int stock_points = 30000;
-constexpr double least_scale = 0.3, greatest_scale = 3.0;
+constexpr double smallest_scale = 0.3, largest_scale = 3.0;
 
 SimilarityTransform random_pose(double scale, double reach, std::mt19937_64& random) {
     std::normal_distribution<double> normal(0.0, 1.0);
@@ -53,7 +53,7 @@ PointTrial point_trial(const PointOriginal& original, const TrialKind& kind, std
         points.resize(count);
     }
     const double size = original.model.size();
-    std::uniform_real_distribution<double> log_scale(std::log(least_scale), std::log(greatest_scale));
+    std::uniform_real_distribution<double> log_scale(std::log(smallest_scale), std::log(largest_scale));
     PointTrial trial;
     trial.truth = random_pose(kind.unknown_scale ? std::exp(log_scale(random)) : 1.0, 2.0 * size, random);
     const SimilarityTransform suspect_original = trial.truth.inverse();

@@ -38,13 +38,15 @@ struct TrialKind {
 
 PointTrial point_trial(const PointOriginal& original, const TrialKind& kind, std::mt19937_64& random);
 
+inline constexpr double greatest_distance = 0.01, greatest_scale_error = 0.02;
+
 /// Success: largest distance of the moved exact points from the original / sqrt(area) < 0.01 and the scale
 /// within 2 %. `found` is the pose that was found.
 struct TrialError {
     double distance = 0.0;  ///< relative to sqrt(area)
     double scale = 0.0;     ///< |s / s_true - 1|
 
-    bool success() const { return distance < 0.01 && scale < 0.02; }
+    bool success() const { return distance < greatest_distance && scale < greatest_scale_error; }
 };
 
 TrialError trial_error(const PointOriginal& original, const PointTrial& trial, const SimilarityTransform& found);

@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Success matrix of matching measured points: random pieces of free-form designs, noisy, in unknown places and scales.
-// points_success [--cases N] [--only TEXT] [--mirror] [--export DIR]
+// Success matrix of matching measured points: random pieces of free-form designs, noisy, in unknown places and scales;
+// beside it the ICP of Besl and McKay, the thesis's baseline, from centroids (and sizes, where the scale is unknown)
+// laid on each other.
+//
+// points_success [--cases N] [--only TEXT] [--coverage C] [--mirror] [--export DIR]
+// "Noise allows": per cent of the cases, shape by shape, whose scale the best unbiased estimate knows within 2 %
+// (Cramer-Rao bound).
 //   --cases N     cases a cell (default 51, shared among the shapes)
 //   --only TEXT   rows whose name contains TEXT
+//   --coverage C  only this coverage: 1, 0.6, 0.3 or 0.1
 //   --mirror      also try mirror images, as the command does
-//   --export DIR  also write every trial as original.ply, suspect.ply and truth.txt, for peers (points_peers.py)
+//   --export DIR  only write every trial as original.ply, suspect.ply, exact.ply and truth.txt, for peers
+//                 (points_peers.py)
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -15,13 +22,19 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/LU>
 #include <tbb/global_control.h>
 
 #include <occ_adapter/read_file.h>
 #include <support/surfaces.h>
 #include <umbilic/core/errors.h>
 #include <umbilic/matching/match_points.h>
+#include <umbilic/matching/pose_distance.h>
+#include <umbilic/matching/refine.h>
+#include <umbilic/matching/score.h>
+#include <umbilic/matching/table_ground.h>
 
+#include "iterative_closest_points.h"
 #include "measurements.h"
 #include "point_trials.h"
 
@@ -45,13 +58,15 @@ constexpr std::array<double, 4> coverages = {1.0, 0.6, 0.3, 0.1};
 struct Arguments {
     int cases = 51;
     std::string only, folder;
+    double coverage = 0.0;  ///< 0: all
     bool mirror = false;
 };
 
 struct Cell {
-    int cases = 0, success = 0, found = 0, wrong = 0, negatives = 0, false_found = 0;
+    int cases = 0, success = 0, found = 0, wrong = 0, negatives = 0, false_found = 0, closest_points = 0;
     std::vector<int> per_shape;
-    std::vector<double> errors, prepare_seconds, match_seconds;
+    std::vector<double> limits;  ///< shape by shape: sum of the chances that the noise leaves, see chance_of_scale()
+    std::vector<double> errors, prepare_seconds, match_seconds, closest_points_seconds;
 };
 
 void write_trial(const std::string& folder, const PointOriginal& original, const PointTrial& trial, const Row& row,
@@ -75,6 +90,18 @@ void write_trial(const std::string& folder, const PointOriginal& original, const
           << original.model.size() << '\n';
 }
 
+/// Probability that the best unbiased estimate of the scale is right within 2 %, from the Cramer-Rao bound at the true
+/// pose: what noise of this size leaves to be known of these points, whoever looks at them.
+double chance_of_scale(const PointOriginal& original, const PointTrial& trial, const Row& row) {
+    if (!row.unknown_scale) return 1.0;
+    std::vector<WeightedPoint> points;
+    for (const Vector3& p : trial.exact) points.push_back({p});
+    const Refinement at = refine(Ground(*original.prepared), points, trial.truth, {.maximum_steps = 1});
+    const double variance = at.normal_matrix.inverse()(6, 6) / static_cast<double>(points.size());
+    const double deviation = row.noise * original.model.size() * std::sqrt(variance) / at.radius;
+    return std::erf(greatest_scale_error / (deviation * std::sqrt(2.0)));
+}
+
 MatchOptions options_for(const Row& row, const Arguments& arguments) {
     MatchOptions options;
     if (!row.unknown_scale) options.scale.kind = ScaleChoice::Kind::fixed;
@@ -82,10 +109,20 @@ MatchOptions options_for(const Row& row, const Arguments& arguments) {
     return options;
 }
 
+SimilarityTransform by_closest_points(const PointOriginal& original, const PreparedPoints& suspect, bool free_scale) {
+    const ShapeSize to = shape_size(original.prepared->features), from = shape_size(suspect.samples);
+    SimilarityTransform start;
+    if (free_scale) start.scale = to.length / from.length;
+    start.translation = to.centroid - start.scale * from.centroid;
+    return iterative_closest_points(TableGround(original.prepared->table), suspect.cloud.points, start,
+                                    {.free_scale = free_scale});
+}
+
 Cell run_cell(const std::vector<std::unique_ptr<PointOriginal>>& originals, const Row& row, double coverage,
               const Arguments& arguments) {
     Cell cell;
     cell.per_shape.assign(originals.size(), 0);
+    cell.limits.assign(originals.size(), 0.0);
     const MatchOptions options = options_for(row, arguments);
     for (int k = 0; k < arguments.cases; ++k) {
         const std::size_t shape = k % originals.size();
@@ -93,7 +130,11 @@ Cell run_cell(const std::vector<std::unique_ptr<PointOriginal>>& originals, cons
         std::mt19937_64 random(1000003ull * k + static_cast<std::uint64_t>(1e6 * row.noise + 10 * coverage));
         const TrialKind kind{.coverage = coverage, .noise = row.noise, .unknown_scale = row.unknown_scale};
         const PointTrial trial = point_trial(original, kind, random);
-        if (!arguments.folder.empty()) write_trial(arguments.folder, original, trial, row, coverage, k);
+        if (!arguments.folder.empty()) {
+            write_trial(arguments.folder, original, trial, row, coverage, k);
+            continue;
+        }
+        cell.limits[shape] += chance_of_scale(original, trial, row);
         auto start = std::clock();
         const PreparedPoints suspect = prepare(trial.suspect);
         cell.prepare_seconds.push_back(seconds_since(start));
@@ -113,6 +154,10 @@ Cell run_cell(const std::vector<std::unique_ptr<PointOriginal>>& originals, cons
         if (error.success()) cell.errors.push_back(error.distance);
         cell.found += alignment.found();
         cell.wrong += alignment.found() && !error.success();
+        start = std::clock();
+        const SimilarityTransform closest = by_closest_points(original, suspect, row.unknown_scale);
+        cell.closest_points_seconds.push_back(seconds_since(start));
+        cell.closest_points += trial_error(original, trial, closest).success();
         const PointOriginal& other =
             *originals[(shape + 1 + k / originals.size() % (originals.size() - 1)) % originals.size()];
         ++cell.negatives;
@@ -132,6 +177,8 @@ Arguments read_arguments(int argc, char** argv) {
             arguments.cases = std::max(1, std::atoi(argv[++i]));
         else if (word == "--only" && more)
             arguments.only = argv[++i];
+        else if (word == "--coverage" && more)
+            arguments.coverage = std::atof(argv[++i]);
         else if (word == "--export" && more)
             arguments.folder = argv[++i];
         else
@@ -150,22 +197,27 @@ void run(const Arguments& arguments) {
     std::printf("%d cases a cell, one thread, mirror images %s; shapes:", arguments.cases,
                 arguments.mirror ? "tried" : "not tried");
     for (const auto& original : originals) std::printf(" %s", original->name.c_str());
-    std::printf("\n%-28s %5s %9s %20s %8s %8s %14s %12s %10s %9s\n", "row", "cover", "success %", "by shape", "found %",
-                "wrong", "false found", "error/sqrtA", "prepare s", "match s");
+    std::printf("\n%-26s %5s %9s %18s %13s %8s %5s %14s %12s %10s %8s %6s %6s\n", "row", "cover", "success %",
+                "by shape", "noise allows", "found %", "wrong", "false found", "error/sqrtA", "prepare s", "match s",
+                "ICP %", "ICP s");
     for (const Row& row : rows) {
         if (std::string(row.name).find(arguments.only) == std::string::npos) continue;
         for (const double coverage : coverages) {
+            if (arguments.coverage > 0.0 && coverage != arguments.coverage) continue;
             const Cell cell = run_cell(originals, row, coverage, arguments);
-            std::string shapes;
+            if (!arguments.folder.empty()) continue;
+            std::string shapes, limits;
             for (std::size_t i = 0; i < originals.size(); ++i) {
                 const int of_shape =
                     (cell.cases + static_cast<int>(originals.size() - 1 - i)) / static_cast<int>(originals.size());
                 shapes += std::to_string(cell.per_shape[i]) + "/" + std::to_string(of_shape) + " ";
+                limits += " " + std::to_string(std::lround(100.0 * cell.limits[i] / std::max(of_shape, 1)));
             }
-            std::printf("%-28s %4.0f%% %9.1f %20s %8.1f %8d %8d of %3d %12.2g %10.3f %9.3f\n", row.name, 100 * coverage,
-                        100.0 * cell.success / cell.cases, shapes.c_str(), 100.0 * cell.found / cell.cases, cell.wrong,
-                        cell.false_found, cell.negatives, median(cell.errors), median(cell.prepare_seconds),
-                        median(cell.match_seconds));
+            std::printf("%-26s %4.0f%% %9.1f %18s %13s %8.1f %5d %7d of %3d %12.2g %10.3f %8.3f %6.1f %6.2f\n",
+                        row.name, 100 * coverage, 100.0 * cell.success / cell.cases, shapes.c_str(), limits.c_str(),
+                        100.0 * cell.found / cell.cases, cell.wrong, cell.false_found, cell.negatives,
+                        median(cell.errors), median(cell.prepare_seconds), median(cell.match_seconds),
+                        100.0 * cell.closest_points / cell.cases, median(cell.closest_points_seconds));
             std::fflush(stdout);
         }
     }

@@ -1,33 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <report/fit_html.h>
 
-#include <cassert>
-#include <ctime>
-
-#include <boost/algorithm/string/replace.hpp>
-#include <fmt/chrono.h>
-#include <fmt/format.h>
-#include <kainjow/mustache.hpp>
-
-#include <report/base64.h>
 #include <report/histogram.h>
 #include <report/json_fit.h>
 #include <report/page.h>
+#include <report/page_data.h>
 #include <report/readable.h>
-#include <report/versions.h>
 #include <report/views.h>
 
 namespace umbilic {
 
 namespace {
-
-using PageData = kainjow::mustache::data;
-
-PageData entry(std::initializer_list<std::pair<const char*, std::string>> fields) {
-    PageData data;
-    for (const auto& [key, value] : fields) data.set(key, value);
-    return data;
-}
 
 std::string net(int u, int v) {
     return std::to_string(u) + " × " + std::to_string(v);
@@ -62,14 +45,10 @@ std::string fit_html(const FitReportInput& input, const Progress& progress) {
     const FitResult& fit = input.fit;
     const ColorScale scale = color_scale(fit.maximum, 0.0);
     PageData page;
-    page.set("style", page_style());
     page.set("name", base_name(input.cloud.source.path));
     page.set("headline", fit_headline(fit));
     page.set("explanation", fit_explanation(input.options, fit));
-    PageData views{PageData::type::list};
-    for (const View& view : residual_views(fit.surface, fit.points, fit.distances, scale))
-        views.push_back(entry({{"caption", view.caption}, {"source", "data:image/png;base64," + base64(view.png)}}));
-    page.set("views", views);
+    page.set("views", pictures(residual_views(fit.surface, fit.points, fit.distances, scale)));
     page.set("legend", legend_svg(scale, true, "scale-residual"));
     page.set("histogram", histogram_svg(histogram(fit.distances, residual_bins), fit.noise));
     PageData steps{PageData::type::list};
@@ -94,24 +73,10 @@ std::string fit_html(const FitReportInput& input, const Progress& progress) {
                           ", largest " + readable(fit.maximum, "mm", 3));
     for (const std::string& warning : input.cloud.warnings) fact("Warning", warning);
     page.set("facts", facts);
-    PageData parameters{PageData::type::list};
-    for (const Parameter& parameter : fit_parameters(input.options, input.most_points))
-        parameters.push_back(
-            entry({{"name", parameter.name},
-                   {"value", parameter.value.is_string() ? parameter.value.get<std::string>() : parameter.value.dump()},
-                   {"unit", parameter.unit == "1" ? "" : parameter.unit},
-                   {"origin", name(parameter.origin)},
-                   {"meaning", boost::replace_all_copy(parameter.meaning, "<=", "≤")}}));
-    page.set("parameters", parameters);
-    page.set("command_line", input.command_line);
-    const Versions used = versions();
-    page.set("version", used.umbilic);
-    page.set("commit", used.commit);
-    page.set("made", fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr))));
+    set_parameters(fit_parameters(input.options, input.most_points), page);
+    set_repetition(input.command_line, page);
     progress.report(0.9, "writing the page");
-    kainjow::mustache::mustache page_template(page_fit());
-    assert(page_template.is_valid());
-    return page_template.render(page);
+    return rendered(page_fit(), "Surface fitted to " + base_name(input.cloud.source.path), page);
 }
 
 }  // namespace umbilic

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <report/html.h>
 
-#include <report/base64.h>
 #include <report/html_sections.h>
 #include <report/omega_plane.h>
 #include <report/page.h>
@@ -13,25 +12,11 @@ namespace umbilic {
 
 namespace {
 
-PageData views_data(const std::vector<View>& views) {
-    PageData list{PageData::type::list};
-    for (const View& view : views) {
-        PageData entry;
-        entry.set("caption", view.caption);
-        entry.set("source", "data:image/png;base64," + base64(view.png));
-        list.push_back(entry);
-    }
-    return list;
-}
-
 PageData type_keys() {
     PageData list{PageData::type::list};
     for (const UmbilicType type :
          {UmbilicType::star, UmbilicType::lemon, UmbilicType::monstar, UmbilicType::non_generic}) {
-        PageData entry;
-        entry.set("name", name(type));
-        entry.set("color", hex(color_of(type)));
-        list.push_back(entry);
+        list.push_back(entry({{"name", name(type)}, {"color", hex(color_of(type))}}));
     }
     return list;
 }
@@ -60,12 +45,7 @@ std::string report_html(const ReportInput& input, const Progress& progress) {
     scene.wires = original_wires(input.original, progress.part(0.5, 0.6));
     progress.report(0.6, "drawing the pictures");
     PageData page;
-    page.set("style", page_style());
-    page.set("three", page_three());
-    page.set("orbit_controls", page_orbit_controls());
-    page.set("stage", page_stage());
-    page.set("viewer", page_viewer());
-    page.set("scene", scene_json(scene));
+    set_scripts(page_viewer(), scene_json(scene), page);
     page.set("posed", scene.posed);
     page.set("has_edges", !scene.original.edges.empty() || !scene.suspect.edges.empty());
     page.set("measured", comparison.assessment.measured);
@@ -78,10 +58,10 @@ std::string report_html(const ReportInput& input, const Progress& progress) {
     page.set("has_umbilics", !scene.umbilics.empty());
     const SimilarityTransform shown =
         scene.posed ? comparison.alignment.original_suspect.inverse() : SimilarityTransform();
-    page.set("model_views", views_data(model_views(scene, shown)));
-    page.set("deviation_views", views_data(deviation_views(scene)));
-    page.set("test_views", views_data(test_views(scene, comparison.assessment)));
-    page.set("wireframe_views", views_data(wireframe_views(scene)));
+    page.set("model_views", pictures(model_views(scene, shown)));
+    page.set("deviation_views", pictures(deviation_views(scene)));
+    page.set("test_views", pictures(test_views(scene, comparison.assessment)));
+    page.set("wireframe_views", pictures(wireframe_views(scene)));
     page.set("has_wires", !scene.wires.nodes.empty());
     page.set("wires_step", readable(scene.wires.step, "mm", 3));
     page.set("wire_kinds", wire_keys());
@@ -95,9 +75,9 @@ std::string report_html(const ReportInput& input, const Progress& progress) {
     set_statistics(comparison.assessment, page);
     set_umbilics(input, page);
     set_provenance(input, page);
-    kainjow::mustache::mustache page_template(page_report());
-    assert(page_template.is_valid());
-    return page_template.render(page);
+    return rendered(
+        page_report(),
+        base_name(input.suspect.source().path) + " compared with " + base_name(input.original.source().path), page);
 }
 
 }  // namespace umbilic

@@ -5,14 +5,11 @@
 #include <numbers>
 
 #include <Eigen/Geometry>
-#include <boost/algorithm/string/replace.hpp>
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <report/given_pairs_text.h>
 #include <report/parameters.h>
 #include <report/readable.h>
-#include <report/versions.h>
 
 namespace umbilic {
 
@@ -23,13 +20,6 @@ constexpr std::size_t most_face_rows = 200;
 
 /// Bytes of an answer from which on its letters are smaller.
 constexpr std::size_t long_answer = 90;
-
-/// One row or entry from keys and texts.
-PageData entry(std::initializer_list<std::pair<const char*, std::string>> fields) {
-    PageData data;
-    for (const auto& [key, value] : fields) data.set(key, value);
-    return data;
-}
 
 std::string degrees(double radians) {
     return readable(radians * 180.0 / std::numbers::pi) + "°";
@@ -42,12 +32,6 @@ std::string joined(const Vector3& vector, int digits = 6) {
 
 std::string yes_no(bool value) {
     return value ? "yes" : "no";
-}
-
-PageData texts(const std::vector<std::string>& lines) {
-    PageData list{PageData::type::list};
-    for (const std::string& line : lines) list.push_back(entry({{"text", line}}));
-    return list;
 }
 
 std::string plural(std::size_t count, const std::string& noun) {
@@ -178,21 +162,21 @@ void set_exhibits(const PreparedShape& original, const PreparedShape& suspect, P
 
     PageData notes{PageData::type::list};
     for (const PreparedShape* shape : {&original, &suspect}) {
-        std::vector<std::string> lines;
+        std::vector<std::string> words;
         if (const PreparedModel* prepared = shape->model()) {
             for (const Skipped& skipped : prepared->model.skipped) {
-                lines.push_back("Skipped " +
+                words.push_back("Skipped " +
                                 (skipped.face > 0 ? "face " + std::to_string(skipped.face) : skipped.entity) + ": " +
                                 skipped.why);
             }
-            for (const std::string& repair : prepared->model.repaired) lines.push_back("Repaired: " + repair);
+            for (const std::string& repair : prepared->model.repaired) words.push_back("Repaired: " + repair);
         }
         for (const std::string& warning :
              shape->model() ? shape->model()->model.warnings : shape->points()->cloud.warnings)
-            lines.push_back("Warning: " + warning);
-        if (lines.empty()) continue;
+            words.push_back("Warning: " + warning);
+        if (words.empty()) continue;
         PageData note = entry({{"model", shape == &original ? "Original" : "Suspect"}});
-        note.set("lines", texts(lines));
+        note.set("lines", lines(words));
         notes.push_back(note);
     }
     page.set("notes", notes);
@@ -307,25 +291,8 @@ void set_statistics(const Assessment& assessment, PageData& page) {
 }
 
 void set_provenance(const ReportInput& input, PageData& page) {
-    PageData parameters{PageData::type::list};
-    for (const Parameter& parameter : compare_parameters(input.options, input.comparison)) {
-        const std::string value = parameter.value.is_string()         ? parameter.value.get<std::string>()
-                                  : parameter.value.is_number_float() ? readable(parameter.value.get<double>())
-                                  : parameter.value.is_null()         ? "–"
-                                                                      : parameter.value.dump();
-        parameters.push_back(entry({{"name", parameter.name},
-                                    {"value", value},
-                                    {"unit", parameter.unit == "1" ? "" : parameter.unit},
-                                    {"origin", name(parameter.origin)},
-                                    {"meaning", boost::replace_all_copy(parameter.meaning, "<=", "≤")}}));
-    }
-    page.set("parameters", parameters);
-    page.set("command_line", input.command_line);
-    const Versions used = versions();
-    page.set("version", used.umbilic);
-    page.set("commit", used.commit);
-    page.set("opencascade", used.opencascade);
-    page.set("made", fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr))));
+    set_parameters(compare_parameters(input.options, input.comparison), page);
+    set_repetition(input.command_line, page);
     PageData stages{PageData::type::list};
     double total = 0.0;
     for (const Timing* timing : {&input.timing, &input.comparison.timing}) {

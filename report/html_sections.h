@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <kainjow/mustache.hpp>
-
 #include <report/html.h>
+#include <report/page_data.h>
 
 namespace umbilic {
-
-/// Values that the page's template (page/report.html) shows; escaping is the template engine's work.
-using PageData = kainjow::mustache::data;
 
 /// Answer, level and key figures.
 void set_summary(const ReportInput& input, PageData& page);

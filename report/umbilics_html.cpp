@@ -3,32 +3,25 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 
-#include <fmt/chrono.h>
-#include <fmt/format.h>
-#include <kainjow/mustache.hpp>
 #include <tbb/parallel_for.h>
 
-#include <report/base64.h>
 #include <report/color_scale.h>
 #include <report/json_geometry.h>
 #include <report/mark.h>
 #include <report/omega_plane.h>
 #include <report/page.h>
+#include <report/page_data.h>
 #include <report/parameter_picture.h>
 #include <report/pattern.h>
 #include <report/readable.h>
 #include <report/scene_mesh.h>
 #include <report/umbilics_text.h>
-#include <report/versions.h>
 #include <report/views.h>
 
 namespace umbilic {
 
 namespace {
-
-using PageData = kainjow::mustache::data;
 
 /// Faces that get a picture of their own, rows of their tables and patterns of traced lines; all else is in
 /// umbilics.json.
@@ -58,16 +51,6 @@ std::vector<Entry> numbered(const UmbilicsReportInput& input) {
         for (const Umbilic& umbilic : found.umbilics)
             entries.push_back({&input.model.face(found.face), &found, &umbilic, ++number, {}});
     return entries;
-}
-
-PageData lines(const std::vector<std::string>& texts) {
-    PageData list{PageData::type::list};
-    for (const std::string& text : texts) {
-        PageData entry;
-        entry.set("text", text);
-        list.push_back(entry);
-    }
-    return list;
 }
 
 std::string error_words(double error) {
@@ -256,10 +239,7 @@ std::string scene(const UmbilicsReportInput& input, const SceneMesh& mesh, const
 PageData facts(const Model& model, const UmbilicOptions& options) {
     PageData list{PageData::type::list};
     const auto fact = [&](const std::string& what, const std::string& value) {
-        PageData entry;
-        entry.set("what", what);
-        entry.set("value", value);
-        list.push_back(entry);
+        list.push_back(entry({{"what", what}, {"value", value}}));
     };
     fact("File", base_name(model.source.path));
     fact("Format, unit", model.source.format + ", " + model.source.unit);
@@ -296,12 +276,7 @@ std::string umbilics_html(const UmbilicsReportInput& input, const Progress& prog
     compute_normals(mesh);
 
     PageData page;
-    page.set("style", page_style());
-    page.set("three", page_three());
-    page.set("orbit_controls", page_orbit_controls());
-    page.set("stage", page_stage());
-    page.set("viewer", page_umbilics_viewer());
-    page.set("scene", scene(input, mesh, entries));
+    set_scripts(page_umbilics_viewer(), scene(input, mesh, entries), page);
     page.set("name", base_name(input.model.source.path));
 
     const UmbilicCounts counts = count_umbilics(input.model, input.umbilics);
@@ -309,21 +284,11 @@ std::string umbilics_html(const UmbilicsReportInput& input, const Progress& prog
     page.set("explanation", umbilics_explanation(counts));
     PageData types{PageData::type::list};
     for (const UmbilicType type : all_types) {
-        PageData entry;
-        entry.set("name", name(type));
-        entry.set("mark", mark_svg(type, 0.0, 0.0, 1.0));
-        types.push_back(entry);
+        types.push_back(entry({{"name", name(type)}, {"mark", mark_svg(type, 0.0, 0.0, 1.0)}}));
     }
     page.set("types", types);
     page.set("has_umbilics", !entries.empty());
-    PageData views{PageData::type::list};
-    for (const View& view : umbilics_views(mesh, input.umbilics)) {
-        PageData entry;
-        entry.set("caption", view.caption);
-        entry.set("source", "data:image/png;base64," + base64(view.png));
-        views.push_back(entry);
-    }
-    page.set("views", views);
+    page.set("views", pictures(umbilics_views(mesh, input.umbilics)));
 
     std::vector<std::string> infinite;
     page.set("omega_plane", omega_plane(entries, infinite));
@@ -356,20 +321,15 @@ std::string umbilics_html(const UmbilicsReportInput& input, const Progress& prog
     page.set("faces_left_out_count", counted(shown.size() - std::min(shown.size(), most_faces), "more face"));
     PageData groups{PageData::type::list};
     for (const FaceGroup& group : plain_faces(input.model, input.umbilics)) {
-        PageData entry;
-        entry.set("words", group.words);
-        entry.set("faces", number_ranges(group.faces));
-        entry.set("count", readable_count(group.faces.size()));
-        groups.push_back(entry);
+        groups.push_back(entry({{"words", group.words},
+                                {"faces", number_ranges(group.faces)},
+                                {"count", readable_count(group.faces.size())}}));
     }
     page.set("groups", groups);
     PageData shells{PageData::type::list};
     for (const ShellGroup& group : shell_groups(input.shells)) {
-        PageData entry;
-        entry.set("words", group.words);
-        entry.set("faces", number_ranges(group.faces));
-        entry.set("count", readable_count(group.shells));
-        shells.push_back(entry);
+        shells.push_back(entry(
+            {{"words", group.words}, {"faces", number_ranges(group.faces)}, {"count", readable_count(group.shells)}}));
     }
     page.set("shells", shells);
     page.set("has_shells", !shells.list_value().empty());
@@ -377,15 +337,8 @@ std::string umbilics_html(const UmbilicsReportInput& input, const Progress& prog
     page.set("skipped", skipped(input.model));
     page.set("has_skipped", !input.model.skipped.empty());
     page.set("facts", facts(input.model, input.options));
-    page.set("command_line", input.command_line);
-    const Versions used = versions();
-    page.set("version", used.umbilic);
-    page.set("commit", used.commit);
-    page.set("opencascade", used.opencascade);
-    page.set("made", fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr))));
-    kainjow::mustache::mustache page_template(page_umbilics());
-    assert(page_template.is_valid());
-    return page_template.render(page);
+    set_repetition(input.command_line, page);
+    return rendered(page_umbilics(), "Umbilics of " + base_name(input.model.source.path), page);
 }
 
 }  // namespace umbilic

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <thread>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "run_command.h"
+#include "command_fixture.h"
 
 namespace umbilic {
 namespace {
@@ -19,47 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-class Command : public testing::Test {
-protected:
-    void SetUp() override {
-        const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
-        folder_ = fs::path(testing::TempDir()) / ("umbilic_" + std::string(test->name()) + std::to_string(getpid()));
-        fs::remove_all(folder_);
-        fs::create_directory(folder_);
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
-    std::string path(const std::string& name) const { return (folder_ / name).string(); }
-    std::string make_file(const std::string& name, const std::string& text) const {
-        std::ofstream(folder_ / name, std::ios::binary) << text;
-        return path(name);
-    }
-    std::string read(const std::string& name) const {
-        std::ostringstream text;
-        text << std::ifstream(folder_ / name, std::ios::binary).rdbuf();
-        return text.str();
-    }
-    /// Names of everything in the test's folder, hidden files included, in order.
-    std::vector<std::string> entries() const {
-        std::vector<std::string> names;
-        for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
-            names.push_back(fs::relative(entry.path(), folder_).string());
-        }
-        std::sort(names.begin(), names.end());
-        return names;
-    }
-
-    fs::path folder_;
-};
-
-/// One line on standard error that starts with "umbilic: " and names what it is about.
-testing::AssertionResult is_one_line(const CommandResult& result, const std::string& about) {
-    const bool good = result.error.rfind("umbilic: ", 0) == 0 && result.error.back() == '\n' &&
-                      std::count(result.error.begin(), result.error.end(), '\n') == 1 &&
-                      result.error.find(about) != std::string::npos;
-    if (good) return testing::AssertionSuccess();
-    return testing::AssertionFailure() << "standard error is: " << result.error;
-}
+using Command = CommandTest;
 
 TEST_F(Command, TellsItsVersion) {
     const CommandResult result = run_umbilic({"--version"});

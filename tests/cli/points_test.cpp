@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Measured points through the command, from files to exit status.
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <random>
@@ -9,7 +8,6 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include <occ_adapter/read_file.h>
 #include <point_files/write_ply.h>
@@ -17,7 +15,7 @@
 #include <support/invariance.h>
 #include <support/surfaces.h>
 
-#include "run_command.h"
+#include "command_fixture.h"
 
 namespace umbilic {
 namespace {
@@ -25,21 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-class PointsCommand : public testing::Test {
+class PointsCommand : public CommandTest {
 protected:
-    void SetUp() override {
-        const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
-        folder_ = fs::path(testing::TempDir()) / ("umbilic_" + std::string(test->name()) + std::to_string(getpid()));
-        fs::remove_all(folder_);
-        fs::create_directory(folder_);
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
-    std::string path(const std::string& name) const { return (folder_ / name).string(); }
-    std::string make_file(const std::string& name, const std::string& text) const {
-        std::ofstream(folder_ / name, std::ios::binary) << text;
-        return path(name);
-    }
     static const Model& bottle() {
         static const Model model = read_file(model_path("bottle.step")).model;
         return model;
@@ -54,16 +39,7 @@ protected:
         EXPECT_EQ(run.status, 0) << run.error;
         return json::parse(run.output);
     }
-
-    fs::path folder_;
 };
-
-testing::AssertionResult is_one_line(const CommandResult& result, const std::string& about) {
-    if (result.error.rfind("umbilic: ", 0) == 0 && std::count(result.error.begin(), result.error.end(), '\n') == 1 &&
-        result.error.find(about) != std::string::npos)
-        return testing::AssertionSuccess();
-    return testing::AssertionFailure() << "standard error is: " << result.error;
-}
 
 /// xi = 0.01 of the thesis on a model 33 mm in size, and 1e-3.
 TEST_F(PointsCommand, ScansOfTheBottleAreFoundAsWhatTheyAre) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <random>
 
 #include <Eigen/Geometry>
@@ -25,6 +26,8 @@ constexpr int seed_pool = 90;
 constexpr double tolerance_by_distance = 0.08, tolerance_by_extent = 0.001, tolerance_by_step = 0.3;
 /// A pose is given up after 2 + 0.3 k outliers among the first k probes.
 constexpr double outliers_at_once = 2.0, outlier_share = 0.3;
+/// The first probes judge all poses of a seed; as many of the best as this are tested on every probe.
+constexpr std::size_t first_probes = 24, poses_of_seed = 100;
 /// The suspect as a part of the original: its moved extent relative to the original's.
 constexpr double smallest_part = 0.04, largest_part = 1.3;
 /// Poses closer than this are one: offset relative to the moved extent, rotation in radians, logarithm of the scale.
@@ -129,12 +132,14 @@ struct Search {
     const PrincipalFrameOptions& options;
     std::vector<Vector3> probes;
 
-    /// Score of a pose that maps the seed's point exactly; negative if rejected.
-    double score(const SimilarityTransform& pose, const Vector3& seed) const {
+    /// Score on the first `count` probes of a pose that maps the seed's point exactly; negative if rejected or if it
+    /// cannot reach `least`.
+    double score(const SimilarityTransform& pose, const Vector3& seed, std::size_t count, double least) const {
         double sum = 0.0;
         int outliers = 0;
         const double fixed = tolerance_by_extent * pose.scale * suspect.extent() + tolerance_by_step * original.step();
-        for (std::size_t k = 0; k < probes.size(); ++k) {
+        for (std::size_t k = 0; k < count; ++k) {
+            if (sum + static_cast<double>(count - k) < least * static_cast<double>(count)) return -1.0;
             const double tolerance = tolerance_by_distance * pose.scale * (probes[k] - seed).norm() + fixed;
             const std::optional<double> distance = original.approximate_distance(pose.apply(probes[k]), tolerance);
             if (distance)
@@ -142,18 +147,21 @@ struct Search {
             else if (++outliers > outliers_at_once + outlier_share * static_cast<double>(k + 1))
                 return -1.0;
         }
-        return sum / static_cast<double>(probes.size());
+        return sum / static_cast<double>(count);
     }
 
     std::vector<PoseCandidate> poses_of(const Entry& seed, const Progress& progress) const {
         std::vector<PoseCandidate> found;
+        std::vector<double> best;  // scores of the best so far, a heap with the least on top
+        const std::size_t first_count = std::min(first_probes, probes.size());
         for (const View& view : views_of(seed, options)) {
             const auto [first, last] = original.angle_range(view.signature.angle - options.angle_window,
                                                             view.signature.angle + options.angle_window);
             const double own = std::sqrt(view.signature.cubic.squared_norm());
             const double allowed = options.third_order_factor * (own + options.third_order_offset);
-            for (int i = first; i < last; ++i) {
-                if (i % 256 == 0) progress.check();
+            int compared = 0;
+            for (int i = first; i < last; i += options.stride) {
+                if (++compared % 256 == 0) progress.check();
                 const Entry& target = original.entries()[i];
                 if (target.signature.anisotropy < least_anisotropy / 2) continue;
                 if (options.third_order && cubic_distance(view.signature.cubic, target.signature.cubic) > allowed)
@@ -167,11 +175,22 @@ struct Search {
                 PoseCandidate pose;
                 pose.original_suspect = similarity_from_orthogonal(
                     *scale, orthogonal, target.frame.point - *scale * (orthogonal * seed.frame.point));
-                pose.score = score(pose.original_suspect, seed.frame.point);
+                pose.score = score(pose.original_suspect, seed.frame.point, first_count,
+                                   best.size() < poses_of_seed ? 0.0 : best.front());
                 pose.method = MatchMethod::curvature;
-                if (pose.score > 0.0) found.push_back(pose);
+                if (!(pose.score > 0.0)) continue;
+                found.push_back(pose);
+                best.push_back(pose.score);
+                std::push_heap(best.begin(), best.end(), std::greater<>());
+                if (best.size() <= poses_of_seed) continue;
+                std::pop_heap(best.begin(), best.end(), std::greater<>());
+                best.pop_back();
             }
         }
+        std::erase_if(found, [&](const PoseCandidate& pose) { return pose.score < best.front(); });
+        for (PoseCandidate& pose : found)
+            pose.score = score(pose.original_suspect, seed.frame.point, probes.size(), 0.0);
+        std::erase_if(found, [](const PoseCandidate& pose) { return !(pose.score > 0.0); });
         return found;
     }
 

@@ -13,6 +13,7 @@ namespace umbilic {
 struct PrincipalFrameOptions {
     int seeds = 16;              ///< points of the suspect that propose poses
     int probes = 64;             ///< points of the suspect that test a proposed pose
+    int stride = 1;              ///< only every so many samples of the original are compared with a seed
     double angle_window = 0.12;  ///< |difference of the signatures' angles|, radians
     /// Third-order filter: ||c_s - c_o|| <= factor (||c_s|| + offset) on the scale-free cubics. It cuts the hypotheses
     /// some hundredfold; without it a match survives jumps of third derivatives at knots and re-approximation.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <span>
 
 #include <Eigen/Eigenvalues>
 #include <oneapi/tbb/parallel_for.h>
@@ -24,11 +25,21 @@ namespace umbilic {
 
 namespace {
 
-/// Points that bring a hypothesis close, that compare poses, and that refine the best exactly.
-constexpr int rough_points = 120, near_points = 400, exact_points = 1500;
-constexpr int rough_steps = 15, near_steps = 20;
-/// Hypotheses refined on samples, and those of them that are refined further.
-constexpr int rough_poses = 24, near_poses = 8, exact_poses = 4;
+/// Samples of the original that seeds are compared with: the errors of jets are greater than what changes from one to
+/// the next.
+constexpr std::size_t compared_samples = 2500;
+/// Proposals, those of them that are brought close, that are compared, and that are refined exactly.
+constexpr int proposals = 300, rough_poses = 48, near_poses = 12, exact_poses = 4;
+/// Proposals nearer to each other than this part of the suspect's length are refined as one: well within the basin.
+constexpr double same_proposal = 0.1;
+/// Points and steps that do so.
+constexpr int rough_points = 80, near_points = 400, exact_points = 1500;
+constexpr int rough_steps = 10, near_steps = 12;
+/// Steps below these parts of the suspect's radius are enough on the way; at the end, those that are below the standard
+/// deviation of a mean of the noise by this factor.
+constexpr double rough_step = 3e-3, near_step = 3e-4, noise_step = 0.02;
+/// A pose that costs this many times the best on the table of samples is not refined exactly.
+constexpr double promising = 2.0;
 /// How far a hypothesis may be off, and one refined roughly, as a part of the suspect's length.
 constexpr double rough_cutoff = 0.15, near_cutoff = 0.05;
 /// Distances beyond this part of the length count as if they were no greater.
@@ -87,14 +98,23 @@ public:
           many_(spread(suspect.samples, exact_points)) {}
 
     Alignment run(const Progress& progress) {
-        const std::vector<Pose> hypotheses = proposed(progress.part(0.0, 0.4));
-        std::vector<Pose> poses = refined(hypotheses, rough_, few_, rough_cutoff, rough_steps, progress.part(0.4, 0.6));
-        keep(poses, near_poses);
-        poses = refined(poses, rough_, some_, near_cutoff, near_steps, progress.part(0.6, 0.7));
-        keep(poses, exact_poses);
-        poses = refined(poses, original_.exact, many_, near_cutoff, RefineOptions().maximum_steps,
-                        progress.part(0.7, 0.95));
-        keep(poses, exact_poses);
+        std::vector<Pose> poses = proposed(progress.part(0.0, 0.4));
+        refine_all(poses, rough_, few_,
+                   {.start_cutoff = rough_cutoff, .maximum_steps = rough_steps, .sufficient_step = rough_step},
+                   progress.part(0.4, 0.6));
+        keep(poses, near_poses, same_hypothesis);
+        refine_all(poses, rough_, some_,
+                   {.start_cutoff = near_cutoff, .maximum_steps = near_steps, .sufficient_step = near_step},
+                   progress.part(0.6, 0.7));
+        keep(poses, near_poses, same_hypothesis);
+        const auto unpromising = std::find_if(
+            poses.begin(), poses.end(), [&](const Pose& pose) { return pose.cost > promising * poses.front().cost; });
+        const std::size_t exact = std::min<std::size_t>(unpromising - poses.begin(), exact_poses);
+        const double enough = noise_step * suspect_.noise / (suspect_.length * std::sqrt(exact_points));
+        refine_all(std::span(poses).first(exact), original_.exact, many_,
+                   {.start_cutoff = near_cutoff, .sufficient_step = enough, .hold_borders = true},
+                   progress.part(0.7, 0.95));
+        keep(poses, near_poses, same_hypothesis);
         Alignment alignment = decided(poses, progress.part(0.95, 1.0));
         alignment.given_pairs = judged_pairs(pairs_, alignment.original_suspect.mirrored);
         return alignment;
@@ -105,14 +125,17 @@ private:
         std::vector<Pose> poses;
         if (options_.initial) poses.push_back({*options_.initial, MatchMethod::given});
         for (const ConsistentPointFit& fit : pairs_) poses.push_back({fit.original_suspect, MatchMethod::given});
-        const PrincipalFrameOptions frames{.third_order = false,
-                                           .keep = rough_poses,
+        const std::size_t compared = original_.table.entries().size() / compared_samples;
+        const PrincipalFrameOptions frames{.stride = std::max(1, static_cast<int>(compared)),
+                                           .third_order = false,
+                                           .keep = proposals,
                                            .flip_normals = !(original_.oriented && suspect_.oriented),
                                            .scale = options_.scale,
                                            .mirror = options_.mirror};
         progress.report(0.0, "looking up principal frames");
         for (const PoseCandidate& pose : propose_by_principal_frame(original_.table, suspect_.table, frames, progress))
             poses.push_back({pose.original_suspect, MatchMethod::points});
+        drop_repeated(poses, rough_poses, same_proposal);
         return poses;
     }
 
@@ -130,38 +153,35 @@ private:
         return weight > 0.0 ? std::sqrt(square / weight) : INFINITY;
     }
 
-    std::vector<Pose> refined(const std::vector<Pose>& poses, const GroundSurface& ground,
-                              const std::vector<WeightedPoint>& points, double cutoff, int steps,
-                              const Progress& progress) const {
-        std::vector<Pose> result = poses;
-        tbb::parallel_for(std::size_t{0}, result.size(), [&](std::size_t i) {
-            progress.check();
-            Pose& pose = result[i];
-            pose.refinement = refine(ground, points, pose.original_suspect,
-                                     {.scale = options_.scale,
-                                      .start_cutoff = cutoff,
-                                      .maximum_steps = steps,
-                                      .hold_borders = &ground == &original_.exact},
-                                     progress);
+    void refine_all(std::span<Pose> poses, const GroundSurface& ground, const std::vector<WeightedPoint>& points,
+                    RefineOptions options, const Progress& progress) const {
+        options.scale = options_.scale;
+        tbb::parallel_for(std::size_t{0}, poses.size(), [&](std::size_t i) {
+            Pose& pose = poses[i];
+            pose.refinement = refine(ground, points, pose.original_suspect, options, progress);
             pose.original_suspect = pose.refinement.original_suspect;
             pose.cost = cost(pose.original_suspect, ground, points);
         });
         progress.report(1.0, "refining poses");
-        return result;
     }
 
-    /// The best `count` that are not one hypothesis.
-    void keep(std::vector<Pose>& poses, int count) const {
-        std::stable_sort(poses.begin(), poses.end(), [](const Pose& a, const Pose& b) { return a.cost < b.cost; });
+    /// Leaves the first `count` of those that differ by more than `apart`; see PoseDistance::relative().
+    void drop_repeated(std::vector<Pose>& poses, int count, double apart) const {
         std::vector<Pose> kept;
         for (Pose& pose : poses) {
             if (static_cast<int>(kept.size()) == count) break;
             if (std::none_of(kept.begin(), kept.end(), [&](const Pose& other) {
-                    return distance_.relative(pose.original_suspect, other.original_suspect) < same_hypothesis;
+                    return distance_.relative(pose.original_suspect, other.original_suspect) < apart;
                 }))
                 kept.push_back(std::move(pose));
         }
         poses = std::move(kept);
+    }
+
+    /// The best of those that differ.
+    void keep(std::vector<Pose>& poses, int count, double apart) const {
+        std::stable_sort(poses.begin(), poses.end(), [](const Pose& a, const Pose& b) { return a.cost < b.cost; });
+        drop_repeated(poses, count, apart);
     }
 
     /// Noise that the distances must be expected to have, in the suspect's unit.

@@ -17,13 +17,12 @@ namespace umbilic {
 
 namespace {
 
-/// The point set as nanoflann asks for it.
+/// The point set as nanoflann asks for it, apart from the entries so that look-ups stay within the processor's caches.
 struct Positions {
-    const PrincipalFrameTable::Entry* entries;
-    std::size_t count;
+    std::vector<Vector3> points;
 
-    std::size_t kdtree_get_point_count() const { return count; }
-    double kdtree_get_pt(std::size_t i, std::size_t axis) const { return entries[i].frame.point[axis]; }
+    std::size_t kdtree_get_point_count() const { return points.size(); }
+    double kdtree_get_pt(std::size_t i, std::size_t axis) const { return points[i][axis]; }
     template <class Box>
     bool kdtree_get_bbox(Box&) const {
         return false;
@@ -31,6 +30,10 @@ struct Positions {
 };
 
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Positions>, Positions, 3>;
+
+/// For approximate distances a sample will do that is at most this many times as far as the nearest one, half a step or
+/// so away.
+constexpr float near_enough = 2.0f;
 
 Cubic scaled(const Cubic& c, double factor) {
     return {c.a * factor, c.b * factor, c.c * factor, c.d * factor};
@@ -77,13 +80,16 @@ ShapeSignature mirrored(const ShapeSignature& signature) {
 
 struct PrincipalFrameTable::Index {
     explicit Index(const std::vector<Entry>& entries)
-        : positions{entries.data(), entries.size()}, tree(3, positions, {10}), grid(points_of(entries)) {}
+        : positions(positions_of(entries)), tree(3, positions, {10}), grid(positions.points) {}
 
-    static std::vector<Vector3> points_of(const std::vector<Entry>& entries) {
-        std::vector<Vector3> points;
-        for (const Entry& entry : entries) points.push_back(entry.frame.point);
-        return points;
+    static Positions positions_of(const std::vector<Entry>& entries) {
+        Positions result;
+        for (const Entry& entry : entries) result.points.push_back(entry.frame.point);
+        return result;
     }
+
+    /// Sample nearest to a point; another one may be returned that is at most `slack` times as far.
+    const Entry* find(const std::vector<Entry>& entries, const Vector3& point, double limit, float slack) const;
 
     Positions positions;
     Tree tree;
@@ -137,7 +143,6 @@ void PrincipalFrameTable::arrange() {
     double spread = 0.0;
     for (const Entry& entry : entries_) spread += (entry.frame.point - centroid).squaredNorm();
     extent_ = entries_.empty() ? 0.0 : 2 * std::sqrt(spread / static_cast<double>(entries_.size()));
-    // The tree refers to the entries' storage, which stays where it is when the table is moved.
     index_ = std::make_unique<const Index>(entries_);
 }
 
@@ -149,20 +154,28 @@ std::pair<int, int> PrincipalFrameTable::angle_range(double low, double high) co
     return {static_cast<int>(first - entries_.begin()), static_cast<int>(last - entries_.begin())};
 }
 
-const PrincipalFrameTable::Entry* PrincipalFrameTable::nearest(const Vector3& point, double limit) const {
-    if (index_->grid.distance_bound(point) > limit) return nullptr;
+const PrincipalFrameTable::Entry* PrincipalFrameTable::Index::find(const std::vector<Entry>& entries,
+                                                                   const Vector3& point, double limit,
+                                                                   float slack) const {
+    if (grid.distance_bound(point) > limit) return nullptr;
     unsigned nearest = 0;
     double squared = 0.0;
     nanoflann::KNNResultSet<double, unsigned> result(1);
     result.init(&nearest, &squared);
     squared = limit * limit;  // the set looks for what is nearer than this
-    index_->tree.findNeighbors(result, point.data(), {});
-    return result.size() == 0 ? nullptr : &entries_[nearest];
+    nanoflann::SearchParams parameters;
+    parameters.eps = slack * slack - 1.0f;  // nanoflann multiplies squared distances by 1 + eps
+    tree.findNeighbors(result, point.data(), parameters);
+    return result.size() == 0 ? nullptr : &entries[nearest];
+}
+
+const PrincipalFrameTable::Entry* PrincipalFrameTable::nearest(const Vector3& point, double limit) const {
+    return index_->find(entries_, point, limit, 1.0f);
 }
 
 std::optional<double> PrincipalFrameTable::approximate_distance(const Vector3& point, double limit) const {
     // Beyond this, either the tangential offset is above the border's or the height above the limit.
-    const Entry* entry = nearest(point, std::hypot(border_steps * step_, limit));
+    const Entry* entry = index_->find(entries_, point, std::hypot(border_steps * step_, limit), near_enough);
     if (!entry) return {};
     const Vector3 offset = point - entry->frame.point;
     const double squared = offset.squaredNorm();

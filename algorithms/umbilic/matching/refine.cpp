@@ -34,12 +34,17 @@ constexpr double longest_turn = 0.5, longest_scaling = 0.3, longest_shift = 0.5;
 /// A step shorter than this part of the radius ends the refinement; so does one that no longer shrinks once it is below
 /// `stagnation`.
 constexpr double rounding_step = 1e-14, stagnation = 1e-10;
+/// A step that raises the loss by more than this part is taken back and repeated with damping, in parts of the greatest
+/// eigenvalue: where motions are hardly determined the surface bends more over the length of a step than it can know.
+constexpr double greatest_rise = 1e-4, first_damping = 1e-4, more_damping = 10.0, less_damping = 0.3,
+                 greatest_damping = 1.0, least_damping = 1e-8;
 
 struct Foot {
     Vector3 moved, normal;
     double residual = 0.0;  ///< signed distance along the normal, mm of the original
     bool used = false;
-    bool beyond = false;  ///< hangs over a border and is drawn back: the normal points away from it
+    bool beyond = false;    ///< hangs over a border and is drawn back: the normal points away from it
+    bool left_out = false;  ///< hangs over a border and is not drawn back
 };
 
 double size_of(std::span<const WeightedPoint> points) {
@@ -67,7 +72,8 @@ std::vector<Foot> find_feet(const GroundSurface& original, std::span<const Weigh
         foot.residual = foot.normal.dot(offset);
         const double beside = (offset - foot.residual * foot.normal).norm();
         foot.used = !closest->at_border || beside <= std::abs(foot.residual);
-        if (foot.used || !hold_borders) return;
+        foot.left_out = !foot.used && !hold_borders;
+        if (foot.used || foot.left_out) return;
         foot.residual = offset.norm();
         foot.normal = offset / foot.residual;
         foot.used = foot.beyond = true;
@@ -83,6 +89,22 @@ double quartile_residual(const std::vector<Foot>& feet) {
     const auto quarter = residuals.begin() + residuals.size() / 4;
     std::nth_element(residuals.begin(), quarter, residuals.end());
     return *quarter;
+}
+
+/// Mean of Tukey's loss, in [0, 1] within borders; of points that are drawn back it goes on growing evenly from where
+/// their pull is greatest. Points that hang over a border and are left out take no part.
+double mean_loss(std::span<const WeightedPoint> points, const std::vector<Foot>& feet, double cutoff) {
+    double sum = 0.0, weight = 0.0;
+    for (std::size_t i = 0; i < feet.size(); ++i) {
+        if (feet[i].left_out) continue;
+        const double ratio = feet[i].used ? std::abs(feet[i].residual) / cutoff : 1.0;
+        const double even = feet[i].beyond ? std::max(0.0, ratio - strongest_pull) : 0.0;
+        const double inside = std::max(0.0, 1.0 - (ratio - even) * (ratio - even));
+        const double slope = 6.0 * (ratio - even) * inside * inside;
+        sum += points[i].weight * (1.0 - inside * inside * inside + slope * even);
+        weight += points[i].weight;
+    }
+    return weight > 0.0 ? sum / weight : 1.0;
 }
 
 struct NormalEquations {
@@ -144,8 +166,9 @@ int determined_motions(std::span<const WeightedPoint> points, std::vector<Foot> 
     return static_cast<int>((values.array() > undetermined_motion * values[n - 1]).count());
 }
 
-/// Least-squares step in mm within the motions that change distances; the others stay 0.
-Vector7 solve(const NormalEquations& equations, bool free_scale) {
+/// Least-squares step in mm within the motions that change distances; the others stay 0. `damping` in parts of the
+/// greatest eigenvalue.
+Vector7 solve(const NormalEquations& equations, bool free_scale, double damping) {
     const int n = free_scale ? 7 : 6;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> motions(equations.unweighted.topLeftCorner(n, n));
     int determined = 0;
@@ -157,9 +180,10 @@ Vector7 solve(const NormalEquations& equations, bool free_scale) {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix);
     const Eigen::VectorXd along = solver.eigenvectors().transpose() * (basis.transpose() * equations.gradient.head(n));
     Eigen::VectorXd step = Eigen::VectorXd::Zero(determined);
+    const double greatest = solver.eigenvalues()[determined - 1];
     for (int k = 0; k < determined; ++k)
-        if (solver.eigenvalues()[k] > undetermined_motion * solver.eigenvalues()[determined - 1])
-            step -= along[k] / solver.eigenvalues()[k] * solver.eigenvectors().col(k);
+        if (solver.eigenvalues()[k] > undetermined_motion * greatest)
+            step -= along[k] / (solver.eigenvalues()[k] + damping * greatest) * solver.eigenvectors().col(k);
     Vector7 result = Vector7::Zero();
     result.head(n) = basis * step;
     return result;
@@ -176,6 +200,32 @@ SimilarityTransform moved_by(const SimilarityTransform& pose, const Vector7& ste
     result.scale *= factor;
     result.rotation = Eigen::Quaterniond(Matrix3(rotation * pose.rotation)).normalized().toRotationMatrix();
     result.translation = centre + step.segment<3>(3) + factor * (rotation * (pose.translation - centre));
+    return result;
+}
+
+struct Step {
+    SimilarityTransform pose;
+    double length = 0.0;  ///< relative to the radius
+    bool at_end = false;  ///< of the allowed range of scales
+};
+
+/// One step of least squares from a pose, no longer than allowed.
+Step stepped(const SimilarityTransform& pose, const NormalEquations& equations, double radius, bool free_scale,
+             double damping, const ScaleChoice& scale) {
+    Vector7 step = solve(equations, free_scale, damping);
+    const double excess = std::max({step.head<3>().norm() / (longest_turn * radius),
+                                    step.segment<3>(3).norm() / (longest_shift * 2.0 * radius),
+                                    std::abs(step[6]) / (longest_scaling * radius), 1.0});
+    step /= excess;
+    Step result{.pose = moved_by(pose, step, equations.centre, radius), .length = step.norm() / radius};
+    if (const double allowed = scale.clamp(result.pose.scale); allowed != result.pose.scale) {
+        // At the end of the allowed range the scale stays there and the other motions go on.
+        result.pose.translation +=
+            (result.pose.scale - allowed) *
+            (result.pose.orthogonal() * result.pose.inverse().apply(equations.centre + step.segment<3>(3)));
+        result.pose.scale = allowed;
+        result.at_end = true;
+    }
     return result;
 }
 
@@ -209,6 +259,15 @@ Refinement refine(const GroundSurface& original, std::span<const WeightedPoint> 
     bool free_scale = options.scale.kind != ScaleChoice::Kind::fixed;
     double relative_cutoff = options.start_cutoff;
     double last_step = std::numeric_limits<double>::infinity();
+    // Where the last step started from, to be taken again with more damping.
+    struct {
+        SimilarityTransform pose;
+        NormalEquations equations;
+        double radius = 0.0;
+        bool free_scale = false;
+        double loss = std::numeric_limits<double>::infinity();
+    } last;
+    double damping = 0.0;
     for (result.steps = 0; result.steps < options.maximum_steps; ++result.steps) {
         progress.check();
         const double length = size * pose.scale;
@@ -216,6 +275,16 @@ Refinement refine(const GroundSurface& original, std::span<const WeightedPoint> 
         result.cutoff = relative_cutoff * length;
         const double reach = options.hold_borders ? options.start_cutoff * length : result.cutoff;
         std::vector<Foot> feet = find_feet(original, points, pose, reach, options.hold_borders);
+        if (last_step > stagnation && damping < greatest_damping &&
+            mean_loss(points, feet, result.cutoff) > (1.0 + greatest_rise) * last.loss) {
+            damping = std::max(first_damping, more_damping * damping);
+            const Step step = stepped(last.pose, last.equations, last.radius, last.free_scale, damping, options.scale);
+            pose = step.pose;
+            free_scale = last.free_scale && !step.at_end;
+            last_step = step.length;
+            continue;
+        }
+        damping = damping > least_damping ? less_damping * damping : 0.0;
         const double quartile = quartile_residual(feet) / length;
         const bool force =
             quartile > filled * relative_cutoff && relative_cutoff > close_cutoff && last_step < relative_cutoff;
@@ -234,11 +303,13 @@ Refinement refine(const GroundSurface& original, std::span<const WeightedPoint> 
         // material once.
         relative_cutoff = next_cutoff;
         result.cutoff = relative_cutoff * length;
+        const double loss = mean_loss(points, feet, result.cutoff);
         for (Foot& foot : feet) {
             if (foot.beyond) foot.residual = std::min(foot.residual, strongest_pull * result.cutoff);
             foot.used = foot.used && std::abs(foot.residual) <= result.cutoff;
         }
         const NormalEquations equations = normal_equations(points, feet, result.cutoff, result.radius);
+        last = {pose, equations, result.radius, free_scale, loss};
         result.share = equations.weight / total;
         if (!(equations.weight > 0.0)) return result;
         result.rms = std::sqrt(equations.square / equations.weight);
@@ -246,26 +317,15 @@ Refinement refine(const GroundSurface& original, std::span<const WeightedPoint> 
         result.centre = equations.centre;
         result.scale_deviation = scale_deviation(equations) / result.radius;
 
-        Vector7 step = solve(equations, free_scale);
-        const double excess = std::max({step.head<3>().norm() / (longest_turn * result.radius),
-                                        step.segment<3>(3).norm() / (longest_shift * length),
-                                        std::abs(step[6]) / (longest_scaling * result.radius), 1.0});
-        step /= excess;
-        pose = moved_by(pose, step, equations.centre, result.radius);
-        if (const double allowed = options.scale.clamp(pose.scale); allowed != pose.scale) {
-            // At the end of the allowed range the scale stays there and the other motions go on.
-            pose.translation += (pose.scale - allowed) *
-                                (pose.orthogonal() * pose.inverse().apply(equations.centre + step.segment<3>(3)));
-            pose.scale = allowed;
-            free_scale = false;
-        }
-        const double length_of_step = step.norm() / result.radius;
-        if (settled &&
-            (length_of_step < rounding_step || (length_of_step < stagnation && length_of_step >= last_step))) {
+        const Step step = stepped(pose, equations, result.radius, free_scale, damping, options.scale);
+        pose = step.pose;
+        free_scale = free_scale && !step.at_end;
+        if (settled && (step.length < std::max(rounding_step, options.sufficient_step) ||
+                        (step.length < stagnation && step.length >= last_step))) {
             result.converged = true;
             break;
         }
-        last_step = length_of_step;
+        last_step = step.length;
     }
     return result;
 }

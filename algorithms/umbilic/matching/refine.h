@@ -26,6 +26,8 @@ struct RefineOptions {
     /// default: the basin from which refinement converges.
     double start_cutoff = 0.08;
     int maximum_steps = 60;
+    /// A step below this part of the radius (see Refinement) ends the refinement; 0: one of the order of rounding.
+    double sufficient_step = 0.0;
     /// Points that hang over a border are drawn back to it instead of being left out: for a suspect of which nothing
     /// is foreign, and that could otherwise slide off a border without resistance.
     bool hold_borders = false;
@@ -60,9 +62,9 @@ inline constexpr double undetermined_motion = 1e-10;
 /// Least squares of the distances of the suspect's points from the original's surface, all of a similarity free unless
 /// the scale is known (thesis 4.2.4, (4.4), with the distance in the suspect's unit: sum (r / s)^2, row
 /// [(x - o) x n, n, n . (x - o) - r]; minimised in the original's unit, noise makes every scale too small).
-/// Gauss-Newton with Tukey weights whose cut-off shrinks with the lower quartile of the residuals, so that material
-/// foreign to the original loses its pull; points whose foot lies on a border and that hang over it are left out. Exact
-/// copies end within rounding.
+/// Gauss-Newton, damped where a step would raise the loss (Levenberg), with Tukey weights whose cut-off shrinks with the
+/// lower quartile of the residuals, so that material foreign to the original loses its pull; points whose foot lies on
+/// a border and that hang over it are left out. Exact copies end within rounding.
 Refinement refine(const GroundSurface& original, std::span<const WeightedPoint> points,
                   const SimilarityTransform& start, const RefineOptions& options = {}, const Progress& progress = {});
 
