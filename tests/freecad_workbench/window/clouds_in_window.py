@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A person's way with measured points: a scan and a mesh in the document, each compared with a design, then looked at."""
+"""A person's way with measured points: a scan and a mesh in the document, each compared with a design."""
 
 import os
 import sys
@@ -13,7 +13,8 @@ import Points
 from PySide import QtGui
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from steps import MODELS, OUTPUT, child, click, click_command, close_panel, colors_in, finished, panel, run, screenshot, wait
+from steps import (MODELS, OUTPUT, child, click, click_command, close_panel, colors_in, finished, panel, run,
+                   screenshot, wait)
 
 SCALE = 0.8  # of the scan, against the design
 NOISE = 0.05  # mm, of the design
