@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <support/reparametrisation.h>
+
 #include <umbilic/matching/match.h>
 
 #include "mechanical_shapes.h"
@@ -121,16 +123,28 @@ TEST(ByAnalyticFaces, NamesTheMotionsThatUndeterminedPiecesKeep) {
     const Alignment hole = piece({faces[5]});
     SCOPED_TRACE(hole.why);
     EXPECT_EQ(hole.status, AlignmentStatus::compatible);
-    ASSERT_EQ(hole.free_motions.size(), 2u);
+    // Without its ends it slides too.
+    const ParameterInterval along = faces[5].domain().v;
+    const NurbsSurface inner = support::restricted(
+        faces[5], {faces[5].domain().u, {along.low + 0.2 * along.length(), along.high - 0.3 * along.length()}});
+    const Alignment cut = piece({inner});
+    SCOPED_TRACE(cut.why);
+    EXPECT_EQ(cut.status, AlignmentStatus::compatible);
+    EXPECT_EQ(cut.free_motions.size(), 2u);
+    EXPECT_NE(motion(cut, FreeMotionKind::turn), nullptr);
+    EXPECT_NE(motion(cut, FreeMotionKind::slide), nullptr);
+
+    // Both ends of the hole meet those of the original's.
+    ASSERT_EQ(hole.free_motions.size(), 1u);
     const FreeMotion* turn = motion(hole, FreeMotionKind::turn);
     ASSERT_NE(turn, nullptr);
-    EXPECT_NE(motion(hole, FreeMotionKind::slide), nullptr);
     EXPECT_NE(hole.why.find("turns about the axis"), std::string::npos);
+    EXPECT_NE(hole.why.find("borders that both share"), std::string::npos);
 
     const Alignment coaxial = piece({faces[5], faces[6]});
     SCOPED_TRACE(coaxial.why);
     EXPECT_EQ(coaxial.status, AlignmentStatus::compatible);
-    EXPECT_EQ(coaxial.free_motions.size(), 2u);
+    EXPECT_EQ(coaxial.free_motions.size(), 1u);
     turn = motion(coaxial, FreeMotionKind::turn);
     ASSERT_NE(turn, nullptr);
     EXPECT_LT(turn->direction.cross(z).norm(), 1e-9);

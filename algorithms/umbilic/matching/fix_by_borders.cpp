@@ -2,7 +2,9 @@
 #include <umbilic/matching/fix_by_borders.h>
 
 #include <algorithm>
-#include <array>
+#include <vector>
+
+#include <Eigen/Geometry>
 
 #include <umbilic/matching/decision.h>
 #include <umbilic/matching/shared_borders.h>
@@ -15,8 +17,10 @@ namespace {
 constexpr int border_samples = 1500;
 /// Shared borders shorter than this part of the length of the smaller model may be crossings and chance.
 constexpr double least_border = 0.1;
-/// Poses that are added for one motion: holes around an axis have as many.
-constexpr std::size_t most_amounts = 12;
+/// Places that are added for one motion: holes around an axis have as many.
+constexpr std::size_t most_places = 12;
+/// Places with at least this part of the longest shared border are as good.
+constexpr double as_long = 0.9;
 
 /// Index of the pose that stands for `original_suspect`.
 std::size_t index_of(const PoseSearch& search, const SimilarityTransform& original_suspect) {
@@ -26,6 +30,37 @@ std::size_t index_of(const PoseSearch& search, const SimilarityTransform& origin
                pose.hypothesis.original_suspect.rotation == original_suspect.rotation;
     });
     return static_cast<std::size_t>(same - poses.begin());
+}
+
+/// The reflection that a surface with such a motion has: in a plane through the axis of a turn, or across a slide.
+SimilarityTransform reflection(const FreeMotion& motion) {
+    const Vector3 d = motion.kind == FreeMotionKind::turn ? motion.direction.unitOrthogonal() : motion.direction;
+    return similarity_from_orthogonal(1.0, Matrix3::Identity() - 2.0 * d * d.transpose(),
+                                      2.0 * d.dot(motion.point) * d);
+}
+
+struct FixedPlace {
+    SimilarityTransform move;  ///< of the suspect in the original's space
+    double length = 0.0;       ///< of the shared borders
+};
+
+/// The places with the longest shared borders, of either hand if both are allowed, longest first.
+std::vector<FixedPlace> fixed_places(const FreeMotion& motion, const SimilarityTransform& pose,
+                                     const BorderSamples& original, const BorderSamples& suspect, double tolerance,
+                                     MirrorChoice mirror, const Progress& progress) {
+    std::vector<FixedPlace> places;
+    const auto add = [&](const SimilarityTransform& hand) {
+        for (const SharedBorder& border :
+             shared_borders(motion, compose(hand, pose), original, suspect, tolerance, progress))
+            places.push_back({compose(motion.by(border.amount), hand), border.length});
+    };
+    add({});
+    if (mirror == MirrorChoice::automatic) add(reflection(motion));
+    std::stable_sort(places.begin(), places.end(),
+                     [](const FixedPlace& a, const FixedPlace& b) { return a.length > b.length; });
+    std::erase_if(places, [&](const FixedPlace& place) { return place.length < as_long * places.front().length; });
+    if (places.size() > most_places) places.resize(most_places);
+    return places;
 }
 
 }  // namespace
@@ -40,13 +75,12 @@ void fix_by_borders(PoseSearch& search, const Progress& progress) {
     for (const FreeMotionKind kind : {FreeMotionKind::slide, FreeMotionKind::turn})
         for (const FreeMotion& motion : fit.free_motions) {
             if (motion.kind != kind || search.out_of_time()) continue;
-            const std::vector<SharedBorder> borders =
-                shared_borders(motion, pose, original, suspect, fit.tolerance, progress.part(0.6, 1.0));
-            if (borders.empty() || borders.front().length < least_border * search.poses().front().length) continue;
+            const std::vector<FixedPlace> places = fixed_places(motion, pose, original, suspect, fit.tolerance,
+                                                                search.options().mirror, progress.part(0.6, 1.0));
+            if (places.empty() || places.front().length < least_border * search.poses().front().length) continue;
             const SimilarityTransform from = pose;
-            pose = compose(motion.by(borders.front().amount), from);
-            for (std::size_t k = 0; k < std::min(borders.size(), most_amounts); ++k)
-                search.move_along(index_of(search, from), motion, borders[k].amount, borders[k].length);
+            pose = compose(places.front().move, from);
+            for (const FixedPlace& place : places) search.fix(index_of(search, from), place.move, motion, place.length);
         }
 }
 

@@ -170,10 +170,10 @@ std::vector<ScoredPose>::iterator PoseSearch::find_same(const ScoredPose& pose) 
     });
 }
 
-void PoseSearch::move_along(std::size_t index, const FreeMotion& motion, double amount, double shared_borders) {
+void PoseSearch::fix(std::size_t index, const SimilarityTransform& move, const FreeMotion& motion,
+                     double shared_borders) {
     // Not refined again: the surfaces would let it drift along the motion.
     ScoredPose pose = poses_[index];
-    const SimilarityTransform move = motion.by(amount);
     pose.hypothesis.original_suspect = compose(move, pose.hypothesis.original_suspect);
     if (!suspect_is_larger(pose.hypothesis.original_suspect.scale))
         pose.refinement.centre = move.apply(pose.refinement.centre);

@@ -46,9 +46,10 @@ public:
     /// Refines the pose at `index` of poses() on all samples.
     void polish(std::size_t index, const Progress& progress);
 
-    /// Adds what becomes of the pose at `index` of poses() by a free motion, to an amount at which borders of this
-    /// length (mm) are shared.
-    void move_along(std::size_t index, const FreeMotion& motion, double amount, double shared_borders);
+    /// Adds what becomes of the pose at `index` of poses() when the suspect moves by `move`, in the original's space:
+    /// one of the places that a free motion runs through, or its mirror image, where borders of this length (mm) are
+    /// shared.
+    void fix(std::size_t index, const SimilarityTransform& move, const FreeMotion& motion, double shared_borders);
 
     /// Best first.
     const std::vector<ScoredPose>& poses() const { return poses_; }
