@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <vector>
 
+#include <support/reparametrisation.h>
 #include <support/surfaces.h>
 #include <umbilic/wireframe/border_nodes.h>
 
@@ -72,6 +75,29 @@ TEST(BorderNodes, MeetAtAPole) {
     EXPECT_EQ(poles, 1);
     EXPECT_EQ(at_pole, 2);
     EXPECT_EQ(border.identities, static_cast<int>(border.loops[0].size()) - 1);
+}
+
+/// On a piece a few roundings wide the tangent is noise: it must not count as a turn.
+TEST(BorderNodes, DoNotDependOnKnotsAFewRoundingsApart) {
+    const NurbsSurface surface = support::torus_quarter(3, 1);
+    const ParameterBox domain = surface.domain();
+    const auto knots = [&](const ParameterInterval& range, int degree) {
+        const double middle = range.middle();
+        std::vector<double> result(degree, middle);
+        result.insert(result.end(), degree,
+                      middle + 8 * std::numeric_limits<double>::epsilon() * std::max(1.0, std::abs(middle)));
+        return result;
+    };
+    const NurbsSurface cut =
+        support::with_knots(surface, knots(domain.u, surface.u_degree()), knots(domain.v, surface.v_degree())).surface;
+    const Model model = support::model_of({surface}), copy = support::model_of({cut});
+    // Few parts by length, so that the turn decides.
+    const BorderNodeOptions options{.step = 10.0};
+    const FaceBorder border = border_nodes(face_adjacency(model), options).front();
+    const FaceBorder other = border_nodes(face_adjacency(copy), options).front();
+    ASSERT_EQ(other.loops[0].size(), border.loops[0].size());
+    for (std::size_t i = 0; i < border.loops[0].size(); ++i)
+        EXPECT_LT((other.loops[0][i].point - border.loops[0][i].point).norm(), 1e-9);
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
+#include <vector>
 
 #include <umbilic/wireframe/face_triangulation.h>
 
@@ -102,6 +104,29 @@ TEST(FaceTriangulation, KeepsItsAreaUnderInsertionAndRemoval) {
     EXPECT_EQ(counts.vertices, 20);
     EXPECT_EQ(counts.euler(), 1);
     EXPECT_EQ(counts.area, 2 * grid_side * grid_side);
+}
+
+/// Where a vertex is taken out no flip may be left that is an improvement: what remains would tell where it was.
+TEST(FaceTriangulation, IsImprovedWhereAVertexIsTakenOut) {
+    FaceTriangulation::Loops loops;
+    loops.loops.push_back(square(loops, 0, 1, 5));
+    FaceTriangulation mesh;
+    ASSERT_FALSE(mesh.build(loops, 1.0));
+    mesh.set_points(flat(loops));
+    mesh.improve(Vector3::Zero());
+    std::vector<int> taken;
+    // An irregular set: multiples of two irrational numbers.
+    for (int i = 1; i <= 300; ++i) {
+        const double x = 0.05 + 0.9 * std::fmod(i * 0.6180339887, 1.0),
+                     y = 0.05 + 0.9 * std::fmod(i * 0.7548776662, 1.0);
+        const int v = mesh.insert(mesh.locate(at(x, y), -1, true), {x, y, 0.1 * std::sin(3 * x + 2 * y)});
+        ASSERT_GE(v, 0);
+        if (i % 3 == 0) taken.push_back(v);
+    }
+    for (const int v : taken) EXPECT_TRUE(mesh.remove(v));
+    mesh.take_changed();
+    mesh.improve(Vector3::Zero());
+    EXPECT_TRUE(mesh.take_changed().empty());
 }
 
 TEST(FaceTriangulation, TellsWhichSegmentsCross) {

@@ -40,6 +40,14 @@ constexpr double meeting_sine = 1e-6;
 /// Rounding of a parameter relative to its domain.
 constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
 
+/// A piece narrower in space than this, relative to the face, is passed over. Second derivatives across it are
+/// differences of control points over the square of its width, 1e-14 of the face's: coordinates rounded at 1e-16 leave
+/// them a digit or two, and none where the face lies far from the origin. A neighbour continued over it misses the
+/// surface by no more than that width, even at a crease.
+constexpr double narrowest_piece = 1e-7;
+/// Only pieces narrower than this in the parameter, relative to the domain, are measured in space.
+constexpr double narrow_parameter = 1e-4;
+
 Vector2 vector(const State& x) {
     return {x[0], x[1]};
 }
@@ -49,6 +57,39 @@ State state(const Vector2& x) {
 
 const ParameterInterval& side(const ParameterBox& box, int k) {
     return k == 0 ? box.u : box.v;
+}
+
+/// Whether piece number i in parameter k is too narrow in space to carry the field, seen at both ends and in the
+/// middle of every piece along it.
+bool too_narrow(const NurbsSurface& surface, int k, int i, double size) {
+    const std::vector<double>& across = (k == 0 ? surface.u_knots() : surface.v_knots()).breaks();
+    const std::vector<double>& along = (k == 0 ? surface.v_knots() : surface.u_knots()).breaks();
+    if (across[i + 1] - across[i] > narrow_parameter * (across.back() - across.front())) return false;
+    const auto width = [&](double t) {
+        const auto at = [&](double s) { return k == 0 ? surface.value(s, t) : surface.value(t, s); };
+        const Vector3 middle = at(0.5 * (across[i] + across[i + 1]));
+        return (middle - at(across[i])).norm() + (at(across[i + 1]) - middle).norm();
+    };
+    for (std::size_t j = 0; j + 1 < along.size(); ++j)
+        for (const double t : {along[j], 0.5 * (along[j] + along[j + 1]), along[j + 1]})
+            if (width(t) > narrowest_piece * size) return false;
+    return true;
+}
+
+/// The piece whose polynomial is taken on each piece in parameter k: of narrow ones the one before them, or, at the
+/// beginning of the domain, after them.
+std::vector<int> carriers(const NurbsSurface& surface, int k, double size) {
+    const int count = static_cast<int>((k == 0 ? surface.u_knots() : surface.v_knots()).breaks().size()) - 1;
+    std::vector<int> result(count);
+    std::vector<int> wide;
+    for (int i = 0; i < count; ++i)
+        if (!too_narrow(surface, k, i, size)) wide.push_back(i);
+    for (int i = 0; i < count; ++i) {
+        const auto after = std::upper_bound(wide.begin(), wide.end(), i);
+        // Where all are narrow none is better than another.
+        result[i] = wide.empty() ? i : after == wide.begin() ? wide.front() : *std::prev(after);
+    }
+    return result;
 }
 
 }  // namespace
@@ -93,6 +134,7 @@ LineTracer::LineTracer(const Face& face, LineField field)
     : face_(face), field_(field), closed_({face.u_closed || face.u_periodic, face.v_closed || face.v_periodic}) {
     size_ = face.area > 0.0 ? std::sqrt(face.area) : face.surface.pole_box().diagonal();
     if (!(size_ > 0.0)) throw InvalidInput("face " + std::to_string(face.number) + " has no extent");
+    for (const int k : {0, 1}) carrier_[k] = carriers(face.surface, k, size_);
 }
 
 Vector2 LineTracer::wrapped(Vector2 parameters) const {
@@ -136,9 +178,12 @@ FieldValue LineTracer::piece_value(const std::array<int, 2>& piece, const Vector
 }
 
 FieldValue LineTracer::value(const Vector2& parameters, CurvatureFamily family) const {
+    return piece_value(piece_at(parameters), parameters, family);
+}
+
+std::array<int, 2> LineTracer::piece_at(const Vector2& parameters) const {
     const NurbsSurface& surface = face_.surface;
-    return piece_value({surface.u_knots().piece(parameters.x()), surface.v_knots().piece(parameters.y())}, parameters,
-                       family);
+    return {carrier_[0][surface.u_knots().piece(parameters.x())], carrier_[1][surface.v_knots().piece(parameters.y())]};
 }
 
 bool LineTracer::indeterminate(const FieldValue& value) const {
@@ -175,20 +220,35 @@ struct LineRun {
         return latest.rates(latest_tangent);
     }
 
+    const std::vector<double>& breaks(int k) const {
+        return (k == 0 ? surface().u_knots() : surface().v_knots()).breaks();
+    }
+
+    /// Numbers of the breaks between which lies the part that piece number i in parameter k carries.
+    std::array<int, 2> carried(int k, int i) const {
+        const auto [first, last] = std::equal_range(tracer.carrier_[k].begin(), tracer.carrier_[k].end(), i);
+        const auto begin = tracer.carrier_[k].begin();
+        return {static_cast<int>(first - begin), static_cast<int>(last - begin)};
+    }
+
+    /// What the piece carries.
     ParameterBox piece_box() const {
-        const std::vector<double>& u = surface().u_knots().breaks();
-        const std::vector<double>& v = surface().v_knots().breaks();
-        return {{u[piece[0]], u[piece[0] + 1]}, {v[piece[1]], v[piece[1] + 1]}};
+        const auto range = [&](int k) {
+            const auto [first, last] = carried(k, piece[k]);
+            return ParameterInterval{breaks(k)[first], breaks(k)[last]};
+        };
+        return {range(0), range(1)};
     }
 
     bool begin(const Vector2& start, const Vector3& direction) {
         x = start;
-        piece = {surface().u_knots().piece(x.x()), surface().v_knots().piece(x.y())};
+        piece = tracer.piece_at(x);
         tangent = direction;
         // On a knot line (or at the end of the domain) the run may lead into the piece before.
         const Vector2 rate = rates(x);
         for (int k = 0; k < 2; ++k)
-            if (piece[k] > 0 && x[k] <= side(piece_box(), k).low && rate[k] < 0.0) --piece[k];
+            if (const int first = carried(k, piece[k])[0]; first > 0 && x[k] <= breaks(k)[first] && rate[k] < 0.0)
+                piece[k] = tracer.carrier_[k][first - 1];
         rates(x);
         here = latest;
         tangent = latest_tangent;
@@ -331,19 +391,19 @@ struct LineRun {
 
     /// Goes on into the piece beyond the knot line on which x lies. False if there is none.
     bool enter_next(int k, bool up) {
-        const KnotVector& knots = k == 0 ? surface().u_knots() : surface().v_knots();
-        const int pieces = static_cast<int>(knots.breaks().size()) - 1;
+        const int pieces = static_cast<int>(breaks(k).size()) - 1;
         const Vector3 point = here.point, normal = here.normal;
-        int next = piece[k] + (up ? 1 : -1);
+        const auto [first, last] = carried(k, piece[k]);
+        int next = up ? last : first - 1;
         if (next < 0 || next >= pieces) {
             if (!tracer.closed_[k]) {
                 line.ended = tracer.indeterminate(here) ? CurveEnd::umbilic : CurveEnd::boundary;
                 return false;
             }
             next = up ? 0 : pieces - 1;
-            x[k] = up ? knots.domain().low : knots.domain().high;
+            x[k] = up ? breaks(k).front() : breaks(k).back();
         }
-        piece[k] = next;
+        piece[k] = tracer.carrier_[k][next];
         rates(x);
         const bool joined = (latest.point - point).norm() <= 1e-6 * tracer.size_;
         if (!joined || !latest.regular || latest.normal.dot(normal) < smooth_cosine) {

@@ -74,8 +74,9 @@ struct TraceOptions {
 };
 
 /// Traces lines on one face (thesis 3.3). Within a polynomial piece of the surface the direction is a smooth function;
-/// the integration stops at every knot line and starts anew in the next piece, so that its order is kept. References
-/// the face.
+/// the integration stops at every knot line and starts anew in the next piece, so that its order is kept. Pieces so
+/// narrow that rounding of the control points leaves no second derivative are passed over: the piece before them
+/// continues to their far side. References the face.
 class LineTracer {
 public:
     LineTracer(const Face& face, LineField field = {});
@@ -101,12 +102,17 @@ public:
 
 private:
     FieldValue piece_value(const std::array<int, 2>& piece, const Vector2& parameters, CurvatureFamily family) const;
+    /// Number of the piece that carries the field at (u, v): not one that is passed over.
+    std::array<int, 2> piece_at(const Vector2& parameters) const;
     friend struct LineRun;
 
     const Face& face_;
     LineField field_;
     double size_ = 1.0;
     std::array<bool, 2> closed_ = {false, false};
+    /// For every piece in u and in v the piece whose polynomial is taken on it: itself, or a neighbour if it is too
+    /// narrow.
+    std::array<std::vector<int>, 2> carrier_;
 };
 
 }  // namespace umbilic

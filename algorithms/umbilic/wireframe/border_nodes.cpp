@@ -27,6 +27,11 @@ constexpr int parts_per_span = 2;
 /// spoil the quadrature.
 constexpr double relative_accuracy = 1e-8;
 constexpr int most_halvings = 16;
+/// Between knots nearer to each other than this share of the curve rounding decides: such a part is not halved, and
+/// the tangent is not asked for there.
+constexpr double narrow_part = 1e-9;
+/// Tangents are taken this share of a part inside of its ends.
+constexpr double inset = 1e-6;
 /// Greatest turn of the tangent between neighbours.
 constexpr double greatest_turn = std::numbers::pi / 3;
 constexpr int most_parts = 100000;
@@ -45,15 +50,21 @@ public:
         for (std::size_t i = 0; i + 1 < ends.size(); ++i)
             for (int k = 0; k < parts_per_span; ++k) {
                 const double low = t_.back(), high = ends[i] + (ends[i + 1] - ends[i]) * (k + 1) / parts_per_span;
-                add(low, high, quadrature(low, high), 0);
+                const bool narrow = !(high - low > narrow_part * range.length());
+                add(low, high, quadrature(low, high), narrow ? most_halvings : 0);
             }
-        // From end to end, ends included: what lies beyond the outermost nodes of a quadrature depends on the knots.
+        // From end to end: what lies beyond the outermost nodes of a quadrature depends on the knots. At a knot itself
+        // the tangent may be that of a piece too narrow to have one.
         Vector3 before = Vector3::Zero();
-        for (const double t : t_) {
-            const Vector3 tangent = at(t).r_t;
-            if (before.norm() > 0.0 && tangent.norm() > 0.0)
-                turn_ += std::atan2(before.cross(tangent).norm(), before.dot(tangent));
-            before = tangent;
+        for (std::size_t i = 0; i + 1 < t_.size(); ++i) {
+            const double width = t_[i + 1] - t_[i];
+            if (!(width > narrow_part * range.length())) continue;
+            for (const double t : {t_[i] + inset * width, t_[i + 1] - inset * width}) {
+                const Vector3 tangent = at(t).r_t;
+                if (before.norm() > 0.0 && tangent.norm() > 0.0)
+                    turn_ += std::atan2(before.cross(tangent).norm(), before.dot(tangent));
+                before = tangent;
+            }
         }
     }
 

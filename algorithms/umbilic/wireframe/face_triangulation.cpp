@@ -309,6 +309,8 @@ bool FaceTriangulation::remove(int vertex) {
         return slots;
     };
     std::vector<int> slots = star();
+    // What is left of these triangles fills the hole.
+    const std::vector<int> changed = slots;
     // Every flip takes one edge from the vertex; where it meets itself across a seam that may fail.
     for (std::size_t flips = slots.size(); slots.size() > 3; --flips) {
         if (flips == 0) return false;
@@ -367,7 +369,10 @@ bool FaceTriangulation::remove(int vertex) {
     }
     slot_of_[vertex] = -1;
     for (const int s : {first, next(first), previous(first)}) slot_of_[slots_[s].vertex] = s;
-    std::vector<int> stack = {first, next(first), previous(first)};
+    std::vector<int> stack;
+    for (const int slot : changed)
+        for (int s = slot - slot % 3, end = s + 3; s < end; ++s)
+            if (slots_[s].vertex >= 0) stack.push_back(s);
     legalise(stack);
     return true;
 }

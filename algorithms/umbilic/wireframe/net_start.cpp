@@ -34,6 +34,8 @@ constexpr double least_convexity = 1e-6;
 constexpr double relative_foot = 1e-13;
 /// Start of the half-lines from a star, relative to the step.
 constexpr double spoke_start = 1e-3;
+/// Error of a step of their integration, relative to the step of the net.
+constexpr double spoke_tolerance = 1e-7;
 /// A net begins no nearer to a pole of the parametrisation than this, relative to the step.
 constexpr double least_pole_distance = 0.213;
 /// The first lines pass such a pole at this distance, relative to the step: not half a step, or the middle between two
@@ -121,6 +123,20 @@ std::optional<Vector3> nearest_pole(const FaceBorder& border, const Vector3& pla
     return nearest;
 }
 
+/// The six half-lines of a star, if all are a step long or longer: among umbilics closer than that, or where curvature
+/// jumps from piece to piece, no net grows from them.
+std::vector<NetStart::Spoke> spokes(const LineTracer& tracer, const Umbilic& star, double step) {
+    std::vector<NetStart::Spoke> result;
+    for (const SeparatrixStart& spoke : separatrix_starts(tracer.face(), star, spoke_start * step)) {
+        const TracedLine line = tracer.trace(
+            spoke.parameters, spoke.family, spoke.direction,
+            {.length = step, .tolerance = spoke_tolerance * step, .longest_step = 0.25 * step, .close = false});
+        if (line.ended == CurveEnd::length) result.push_back({spoke.parameters, spoke.direction, spoke.family});
+    }
+    if (result.size() != 6) result.clear();
+    return result;
+}
+
 }  // namespace
 
 std::optional<NetStart> net_start(const Face& face, const FaceBorder& border, const FaceFrame& frame,
@@ -135,36 +151,31 @@ std::optional<NetStart> net_start(const Face& face, const FaceBorder& border, co
     };
 
     // A star umbilic.
-    const Umbilic* star = nullptr;
-    double first = std::numeric_limits<double>::infinity(), second = first;
-    for (const Umbilic& umbilic : umbilics.umbilics) {
-        if (umbilic.kind.type != UmbilicType::star || !umbilic.certified || !inside(face, {umbilic.at.u, umbilic.at.v}))
-            continue;
-        if (!(border_distance(umbilic.point) > step)) continue;
-        const double distance = (umbilic.point - target).norm();
-        if (distance < first) {
-            second = first;
-            first = distance;
-            star = &umbilic;
-        } else {
-            second = std::min(second, distance);
-        }
-    }
-    if (star && second - first > tie * step) {
-        NetStart start{.parameters = {star->at.u, star->at.v}};
-        for (const SeparatrixStart& spoke : separatrix_starts(face, *star, spoke_start * step))
-            start.spokes.push_back({spoke.parameters, spoke.direction, spoke.family});
-        if (start.spokes.size() == 6) return start;
+    const LineTracer lines(face);
+    std::vector<std::pair<double, const Umbilic*>> stars;
+    for (const Umbilic& umbilic : umbilics.umbilics)
+        if (umbilic.kind.type == UmbilicType::star && umbilic.certified && inside(face, {umbilic.at.u, umbilic.at.v}) &&
+            border_distance(umbilic.point) > step)
+            stars.emplace_back((umbilic.point - target).norm(), &umbilic);
+    const auto nearer = [](const auto& a, const auto& b) { return a.first < b.first; };
+    std::sort(stars.begin(), stars.end(), nearer);
+    for (auto star = stars.begin(); star != stars.end(); ++star) {
+        NetStart start{.parameters = {star->second->at.u, star->second->at.v},
+                       .spokes = spokes(lines, *star->second, step)};
+        if (start.spokes.empty()) continue;
+        const bool clearly = std::none_of(std::next(star), stars.end(), [&](const auto& other) {
+            return other.first - star->first <= tie * step && !spokes(lines, *other.second, step).empty();
+        });
+        if (clearly) return start;
+        break;
     }
 
     // The point nearest to the centroid.
-    const LineTracer lines(face);
     std::vector<Vector2> places = grid_places(face);
     const bool all_umbilic = !places.empty() && std::all_of(places.begin(), places.end(), [&](const Vector2& p) {
         const FieldValue value = lines.value(p, CurvatureFamily::maximum);
         return lines.indeterminate(value);
     });
-    const auto nearer = [](const auto& a, const auto& b) { return a.first < b.first; };
     const auto nearest_to = [&](const Vector3& wanted) -> std::optional<Vector2> {
         std::vector<std::pair<double, Vector2>> candidates;
         for (const Vector2& p : places) candidates.emplace_back((face.surface.value(p.x(), p.y()) - wanted).norm(), p);
