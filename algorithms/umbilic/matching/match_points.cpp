@@ -125,10 +125,9 @@ private:
         std::vector<Pose> poses;
         if (options_.initial) poses.push_back({*options_.initial, MatchMethod::given});
         for (const ConsistentPointFit& fit : pairs_) poses.push_back({fit.original_suspect, MatchMethod::given});
-        // A known scale leaves a few of them, which have to come nearer to the truth.
+        // A known scale leaves few of them, which have to come near to the truth: all are compared.
         const bool known_scale = options_.scale.kind == ScaleChoice::Kind::fixed;
-        const std::size_t compared =
-            original_.table.entries().size() / (known_scale ? 4 * compared_samples : compared_samples);
+        const std::size_t compared = known_scale ? 1 : original_.table.entries().size() / compared_samples;
         const PrincipalFrameOptions frames{.stride = std::max(1, static_cast<int>(compared)),
                                            .third_order = false,
                                            .keep = proposals,
