@@ -2,6 +2,7 @@
 #include <report/html_sections.h>
 
 #include <array>
+#include <cmath>
 #include <numbers>
 
 #include <Eigen/Geometry>
@@ -28,6 +29,11 @@ std::string degrees(double radians) {
 std::string joined(const Vector3& vector, int digits = 6) {
     return "(" + readable(vector.x(), digits) + ", " + readable(vector.y(), digits) + ", " +
            readable(vector.z(), digits) + ")";
+}
+
+/// Entry of a rotation matrix; rounding is no negative zero.
+std::string nine_decimals(double value) {
+    return fmt::format("{:.9f}", std::round(1e9 * value) / 1e9 + 0.0);
 }
 
 std::string yes_no(bool value) {
@@ -208,9 +214,9 @@ void set_alignment(const Alignment& alignment, PageData& page) {
         if (alignment.copies.size() > 1) row("Places at which it fits", readable_count(alignment.copies.size()));
         for (const FreeMotion& motion : alignment.free_motions) row("The suspect still", in_words(motion));
         for (int i = 0; i < 3; ++i) {
-            matrix.push_back(entry({{"x", fmt::format("{:.9f}", pose.rotation(i, 0))},
-                                    {"y", fmt::format("{:.9f}", pose.rotation(i, 1))},
-                                    {"z", fmt::format("{:.9f}", pose.rotation(i, 2))}}));
+            matrix.push_back(entry({{"x", nine_decimals(pose.rotation(i, 0))},
+                                    {"y", nine_decimals(pose.rotation(i, 1))},
+                                    {"z", nine_decimals(pose.rotation(i, 2))}}));
         }
     }
     page.set("alignment", rows);
