@@ -19,8 +19,6 @@ constexpr int border_samples = 1500;
 constexpr double least_border = 0.1;
 /// Places that are added for one motion: holes around an axis have as many.
 constexpr std::size_t most_places = 12;
-/// Places with at least this part of the longest shared border are as good.
-constexpr double as_long = 0.9;
 
 /// Index of the pose that stands for `original_suspect`.
 std::size_t index_of(const PoseSearch& search, const SimilarityTransform& original_suspect) {
@@ -58,7 +56,8 @@ std::vector<FixedPlace> fixed_places(const FreeMotion& motion, const SimilarityT
     if (mirror == MirrorChoice::automatic) add(reflection(motion));
     std::stable_sort(places.begin(), places.end(),
                      [](const FixedPlace& a, const FixedPlace& b) { return a.length > b.length; });
-    std::erase_if(places, [&](const FixedPlace& place) { return place.length < as_long * places.front().length; });
+    std::erase_if(places,
+                  [&](const FixedPlace& place) { return place.length < as_long_border * places.front().length; });
     if (places.size() > most_places) places.resize(most_places);
     return places;
 }

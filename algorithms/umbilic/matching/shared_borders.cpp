@@ -24,8 +24,6 @@ constexpr double section_steps = 1.0;
 /// Bins with the most votes that are refined, and steps of a refinement.
 constexpr std::size_t refined_bins = 24;
 constexpr int refining_steps = 12;
-/// Amounts with at least this part of the longest shared border are as good.
-constexpr double as_long = 0.9;
 /// Amounts that part the borders by less than this share of a step are one.
 constexpr double same_place = 0.1;
 
@@ -251,7 +249,7 @@ std::vector<SharedBorder> shared_borders(const FreeMotion& motion, const Similar
     std::vector<SharedBorder> best;
     for (const SharedBorder& border : all) {
         // Less than a step is no stretch of border.
-        if (border.length < std::max(original.step(), as_long * all.front().length)) break;
+        if (border.length < std::max(original.step(), as_long_border * all.front().length)) break;
         const bool known = std::any_of(best.begin(), best.end(), [&](const SharedBorder& other) {
             return lay.apart(border.amount, other.amount) <= std::max(same_place * original.step(), 2.0 * tolerance);
         });

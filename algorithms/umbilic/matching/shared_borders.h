@@ -36,6 +36,9 @@ private:
     double step_ = 0.0;
 };
 
+/// Amounts, or places, with at least this part of the longest shared border are as good as the best one.
+inline constexpr double as_long_border = 0.9;
+
 /// An amount of a free motion (FreeMotion::by) that lays borders on borders.
 struct SharedBorder {
     double amount = 0.0;
