@@ -3,7 +3,8 @@
 // negatives [--every-version] FILE...
 // Files of one family (their names agree up to the first '_' or '.') are versions of one object: they are not paired,
 // and of each family the first file alone takes part unless --every-version is given.
-// Prints the pairs whose verdict is not "none" or whose alignment is more than "not found", and a table of counts.
+// Prints the pairs whose verdict is not "none" or whose alignment is more than "not found", and a table of counts;
+// progress goes to standard error.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -53,7 +54,11 @@ int main(int argc, char** argv) {
         }
     }
     std::map<std::string, int> levels, statuses;
-    int pairs = 0, derived = 0;
+    std::size_t expected = 0;
+    for (const auto& original : entries)
+        expected += std::count_if(entries.begin(), entries.end(),
+                                  [&](const auto& suspect) { return original->family != suspect->family; });
+    std::size_t pairs = 0, derived = 0;
     double slowest = 0.0, total = 0.0;
     std::string slowest_pair;
     for (const auto& original : entries)
@@ -76,8 +81,10 @@ int main(int argc, char** argv) {
                 std::printf("%s / %s: %s, %s; %s\n", original->name.c_str(), suspect->name.c_str(), level.c_str(),
                             status.c_str(), comparison.alignment.why.c_str());
             std::fflush(stdout);
+            std::fprintf(stderr, "%zu of %zu pairs, %.2f s: %s / %s\n", pairs, expected, seconds,
+                         original->name.c_str(), suspect->name.c_str());
         }
-    std::printf("%zu files, %d ordered pairs of different objects, %d derived; %.2f s a pair, slowest %.1f s (%s)\n",
+    std::printf("%zu files, %zu ordered pairs of different objects, %zu derived; %.2f s a pair, slowest %.1f s (%s)\n",
                 entries.size(), pairs, derived, pairs ? total / pairs : 0.0, slowest, slowest_pair.c_str());
     for (const auto& [level, count] : levels) std::printf("level %s: %d\n", level.c_str(), count);
     for (const auto& [status, count] : statuses) std::printf("alignment %s: %d\n", status.c_str(), count);

@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include <umbilic/bernstein/binomials.h>
+
 namespace umbilic {
 
 namespace {
@@ -159,12 +161,6 @@ void finish(CellModel& m, const Ball& uu, const Ball& uv, const Ball& vv) {
                    2 * a_v * turn_v + turn_v * turn_v + m.radius * b_vv};
 }
 
-double binomial(int n, int k) {
-    double result = 1.0;
-    for (int i = 1; i <= k; ++i) result = result * (n - k + i) / i;
-    return result;
-}
-
 }  // namespace
 
 LocalDerivatives evaluate(const LocalPatch& patch, double u, double v) {
@@ -248,6 +244,7 @@ double squared_distance_bound(int u_degree, int v_degree, const std::vector<Vect
     const int m = u_degree, n = v_degree;
     // Control points relative to p, times binomials: a product of Bernstein forms is then a plain convolution.
     std::vector<Vector4> scaled(net.size());
+    const double *u_binomials = binomials(m), *v_binomials = binomials(n);
     double heaviest = 0.0;
     for (int i = 0; i <= m; ++i)
         for (int j = 0; j <= n; ++j) {
@@ -255,20 +252,18 @@ double squared_distance_bound(int u_degree, int v_degree, const std::vector<Vect
             Vector4& s = scaled[i * (n + 1) + j];
             s.head<3>() = h.head<3>() - h[3] * p;
             s[3] = h[3] * d;
-            s *= binomial(m, i) * binomial(n, j);
+            s *= u_binomials[i] * v_binomials[j];
             heaviest = std::max(heaviest, h[3]);
         }
+    const double *u_inverse = inverse_binomials(2 * m), *v_inverse = inverse_binomials(2 * n);
     double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i <= 2 * m; ++i)
         for (int j = 0; j <= 2 * n; ++j) {
-            double sum = 0.0;
+            Vector4 sum = Vector4::Zero();
             for (int k = std::max(0, i - m); k <= std::min(i, m); ++k)
-                for (int l = std::max(0, j - n); l <= std::min(j, n); ++l) {
-                    const Vector4& a = scaled[k * (n + 1) + l];
-                    const Vector4& b = scaled[(i - k) * (n + 1) + j - l];
-                    sum += a.head<3>().dot(b.head<3>()) - a[3] * b[3];
-                }
-            least = std::min(least, sum / (binomial(2 * m, i) * binomial(2 * n, j)));
+                for (int l = std::max(0, j - n); l <= std::min(j, n); ++l)
+                    sum += scaled[k * (n + 1) + l].cwiseProduct(scaled[(i - k) * (n + 1) + j - l]);
+            least = std::min(least, (sum[0] + sum[1] + sum[2] - sum[3]) * u_inverse[i] * v_inverse[j]);
         }
     return least / (heaviest * heaviest);
 }

@@ -15,12 +15,17 @@ namespace umbilic {
 
 namespace {
 
-/// A patch is halved at most this often when the tree is built, and less where there are so many patches that the tree
-/// would get more cells than this; queries halve further where they must.
-constexpr int deepest_halving = 8;
-constexpr double most_cells = 32768;
-/// Cells are halved until, for points up to the model's radius away, the second derivatives of the squared distance are
-/// known up to this part of those of the surface's own metric.
+/// A patch is halved at most `deepest` times when the tree is built, and less where there are so many patches that the
+/// tree would get more cells than this, until the cells are accurate for points within a part of the model's radius:
+/// far ones as long as that is cheap, near ones, which cost most queries, farther on. Queries halve further where they
+/// must.
+struct Halving {
+    double distance, most_cells;
+    int deepest;
+};
+constexpr Halving far_points{1.0, 32768, 8}, near_points{0.02, 131072, 12};
+/// Cells are accurate if the second derivatives of the squared distance are known up to this part of those of the
+/// surface's own metric.
 constexpr double wanted_accuracy = 0.5;
 /// Boxes are widened by this times the coordinates, against rounding.
 constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
@@ -30,6 +35,10 @@ bool accurate(const CellModel& m, double distance) {
     const auto error = [&](int k) { return m.bend_far[k] * distance + m.bend_near[k]; };
     return error(0) <= wanted_accuracy * e && error(2) <= wanted_accuracy * g &&
            error(1) <= wanted_accuracy * std::sqrt(e * g);
+}
+
+int halvings_of(const Halving& halving, double patch_count) {
+    return std::clamp(static_cast<int>(std::log2(halving.most_cells / patch_count)), 0, halving.deepest);
 }
 
 }  // namespace
@@ -54,7 +63,8 @@ CellTree::CellTree(const std::vector<Face>& model_faces) {
     if (box.empty()) return;
     origin = box.center();
     radius = 0.5 * box.diagonal();
-    halvings = std::clamp(static_cast<int>(std::log2(most_cells / patch_count)), 0, deepest_halving);
+    far_halvings = halvings_of(far_points, patch_count);
+    near_halvings = halvings_of(near_points, patch_count);
 
     std::vector<Growth> growths(faces.size());
     tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t i) {
@@ -132,7 +142,8 @@ void CellTree::grow(Growth& growth, int patch, const Cell& cell, int depth) cons
         grown.trimmed = place == Containment::boundary;
     }
     grown.model = model(source, cell.box, growth.net);
-    if (depth < halvings && !accurate(grown.model, radius)) {
+    if ((depth < far_halvings && !accurate(grown.model, far_points.distance * radius)) ||
+        (depth < near_halvings && !accurate(grown.model, near_points.distance * radius))) {
         const int side = longer_side(grown.model);
         const double middle = 0.5 * (cell.box.low[side] + cell.box.high[side]);
         Cell low = grown, high = grown;

@@ -59,8 +59,8 @@ struct CellTree {
     Vector3 origin = Vector3::Zero();
     /// Radius of a ball about the origin that holds everything.
     double radius = 0.0;
-    /// A patch is halved at most this often when the tree is built.
-    int halvings = 0;
+    /// A patch is halved at most this often when the tree is built, for points far from it and near it.
+    int far_halvings = 0, near_halvings = 0;
     std::vector<TreeFace> faces;
     std::vector<TreePatch> patches;
     std::vector<Cell> cells;

@@ -210,7 +210,8 @@ std::vector<PoseCandidate> propose_by_principal_frame(const PrincipalFrameTable&
                                                       const PrincipalFrameOptions& options, const Progress& progress) {
     if (original.entries().empty() || suspect.entries().empty()) return {};
     const Search search{original, suspect, options, choose_probes(suspect, options.probes)};
-    const std::vector<int> seeds = choose_seeds(suspect, options.seeds);
+    std::vector<int> seeds = choose_seeds(suspect, options.seeds);
+    seeds.erase(seeds.begin(), seeds.begin() + std::min<std::size_t>(options.first_seed, seeds.size()));
     std::vector<std::vector<PoseCandidate>> found(seeds.size());
     tbb::parallel_for(std::size_t(0), seeds.size(),
                       [&](std::size_t i) { found[i] = search.poses_of(suspect.entries()[seeds[i]], progress); });

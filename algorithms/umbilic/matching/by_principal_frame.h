@@ -12,6 +12,7 @@ namespace umbilic {
 
 struct PrincipalFrameOptions {
     int seeds = 16;              ///< points of the suspect that propose poses
+    int first_seed = 0;          ///< seeds before this one, in the order of their choice, are left out
     int probes = 64;             ///< points of the suspect that test a proposed pose
     int stride = 1;              ///< only every so many samples of the original are compared with a seed
     double angle_window = 0.12;  ///< |difference of the signatures' angles|, radians

@@ -31,8 +31,9 @@ constexpr int refined_poses = 16, refined_moments = 48, refined_analytic = 48, r
 /// rounding or, approximated, to 3e-3.
 constexpr double analytic_error = 5e-3, umbilics_error = 0.08, moments_error = 0.25, given_error = 0.25,
                  curvature_error = 0.15, kh_error = 0.1;
-/// Seeds looked up without the third order; on exact and re-approximated surfaces nearly every single seed succeeds.
-constexpr int second_order_seeds = 6;
+/// Seeds looked up first, and those looked up without the third order: on exact and re-approximated surfaces nearly
+/// every single seed succeeds.
+constexpr int first_seeds = 3, second_order_seeds = 6;
 /// Faces of the suspect that propose poses by themselves: the largest ones, from this part of the area on.
 constexpr std::size_t most_faces = 8;
 constexpr double least_face_share = 0.05;
@@ -49,17 +50,22 @@ Proposals given_poses(const MatchOptions& options, const std::vector<ConsistentP
     return result;
 }
 
+enum class Seeds { first, others, second_order };
+
 /// Poses from single points with their principal frames, seeds on the suspect or (`swapped`) on the original, for a
 /// suspect of which only a part comes from the original.
 Proposals poses_by_principal_frame(const PreparedModel& original, const PreparedModel& suspect,
-                                   const MatchOptions& match, bool third_order, bool swapped,
-                                   const Progress& progress) {
+                                   const MatchOptions& match, Seeds seeds, bool swapped, const Progress& progress) {
+    const bool third_order = seeds != Seeds::second_order;
     PrincipalFrameOptions options{.third_order = third_order,
                                   .flip_normals = !(original.model.oriented() && suspect.model.oriented()),
                                   .scale = swapped ? match.scale.inverse() : match.scale,
                                   .mirror = match.mirror};
-    if (!third_order) options.seeds = second_order_seeds;
+    if (seeds == Seeds::first) options.seeds = first_seeds;
+    if (seeds == Seeds::others) options.first_seed = first_seeds;
+    if (seeds == Seeds::second_order) options.seeds = second_order_seeds;
     Proposals result{.why = std::string("curvature: ") + (third_order ? "third order" : "second order") +
+                            (seeds == Seeds::others ? " at further points" : "") +
                             (swapped ? " from the original's side" : "")};
     const auto poses = swapped ? propose_by_principal_frame(suspect.table, original.table, options, progress)
                                : propose_by_principal_frame(original.table, suspect.table, options, progress);
@@ -164,27 +170,37 @@ Alignment match(const PreparedModel& original, const PreparedModel& suspect, con
                      options.umbilic_invariant_tolerance, progress.part(0.1, 0.7)),
                  refined_poses, kh_error, progress.part(0.7, 0.9));
     // Moments belong to wholes: they say nothing of a piece.
+    Proposals turned;
     if (wanted(MethodChoice::moments) &&
-        (options.scope != ScopeChoice::partial || options.method == MethodChoice::moments))
-        consider(poses_by_moments(original, suspect, options.scale, options.mirror), refined_moments, moments_error,
-                 progress.part(0.5, 0.6));
+        (options.scope != ScopeChoice::partial || options.method == MethodChoice::moments)) {
+        Proposals moments = poses_by_moments(original, suspect, options.scale, options.mirror);
+        // Sampled turns are many and rough.
+        if (moments.sampled && options.method == MethodChoice::automatic)
+            turned = std::move(moments);
+        else
+            consider(moments, refined_moments, moments_error, progress.part(0.5, 0.6));
+    }
     if (wanted(MethodChoice::curvature)) {
         const auto look_up = [&](double fraction, const auto& propose) {
-            const Progress part = progress.part(fraction, fraction + 0.07);
+            const Progress part = progress.part(fraction, fraction + 0.04);
             if (!search.out_of_time() && !settled(search))
                 consider(propose(part.part(0.0, 0.5)), refined_poses, curvature_error, part.part(0.5, 1.0));
         };
-        const auto whole = [&](bool third_order, bool swapped) {
-            return [&, third_order, swapped](const Progress& part) {
-                return poses_by_principal_frame(original, suspect, options, third_order, swapped, part);
+        const auto whole = [&](Seeds seeds, bool swapped) {
+            return [&, seeds, swapped](const Progress& part) {
+                return poses_by_principal_frame(original, suspect, options, seeds, swapped, part);
             };
         };
-        look_up(0.6, whole(true, false));
-        look_up(0.67, whole(true, true));
+        look_up(0.6, whole(Seeds::first, false));
+        look_up(0.64, whole(Seeds::others, false));
+        look_up(0.68, whole(Seeds::first, true));
+        look_up(0.72, whole(Seeds::others, true));
         if (suspect.model.faces.size() > 1)
-            look_up(0.74, [&](const Progress& part) { return poses_by_faces(original, suspect, options, part); });
+            look_up(0.76, [&](const Progress& part) { return poses_by_faces(original, suspect, options, part); });
+        if (!turned.poses.empty() && wanted(MethodChoice::moments))
+            consider(turned, refined_moments, moments_error, progress.part(0.8, 0.84));
         // Without the third order there are some hundred times as many hypotheses: last, and on one side.
-        look_up(0.81, whole(false, false));
+        look_up(0.84, whole(Seeds::second_order, false));
     }
     if (options.method == MethodChoice::kh) {
         for (const bool swapped : {false, true}) {

@@ -18,10 +18,14 @@ namespace {
 constexpr double coarse_tolerance = 0.05;
 /// Samples that judge an unrefined hypothesis, and points that refine it.
 constexpr int quick_samples = 48;
+/// Samples of either model that say whether an approached pose is promising, and points that refine it.
+constexpr int judging_samples = 200;
 constexpr int refining_points = 400;
 /// A refinement starts with the first of them, which suffice to come close.
 constexpr std::size_t approaching_points = 100;
 constexpr int approaching_steps = 20;
+/// ... and ends with a step that moves the points by less than this part of the root mean square of their distances.
+constexpr double approaching_part_of_rms = 0.05;
 /// Cut-off from which the refinement goes on with all points, relative to the length.
 constexpr double near_cutoff = 5e-3;
 /// Hypotheses scored between two updates of the score that gives up early. Fixed, so that results do not depend on
@@ -30,11 +34,18 @@ constexpr std::size_t batch = 64;
 /// The larger model is the ground if it is longer by this factor; otherwise the original is.
 constexpr double larger = 1.5;
 /// An approached pose whose soft shares, at the tolerance of measured shapes, are below this part of the best ones so
-/// far is not worth the exact distances: those from the tables of samples stand for them.
+/// far is not worth the exact distances: the best of them is measured on the tables of samples, to be reported.
 constexpr double unpromising = 0.25;
+/// The first refinement on the surfaces ends with a step that moves the points by less than this part of the root mean
+/// square of their distances; the pose that wins is polished, until a step is below a smaller part. A pose that fits has
+/// taken far fewer steps than these.
+constexpr double sufficient_part_of_rms = 1e-3, polished_part_of_rms = 1e-6;
+constexpr int refining_steps = 30;
 /// A refined pose whose residuals are below this part of the length, the rounding of files, gains nothing from more
 /// points.
 constexpr double rounding = 1e-10;
+/// Of two refined poses in one place the later one is measured only if its residuals are smaller by this factor.
+constexpr double closer = 1.1;
 /// Longer time limits (a year, s) are none.
 constexpr double longest_seconds = 3e7;
 /// A refined pose on which fewer of the points than this came to lie is dropped.
@@ -52,6 +63,11 @@ std::vector<WeightedPoint> all_points(const std::vector<AreaSample>& samples) {
     std::vector<WeightedPoint> points;
     for (const AreaSample& sample : samples) points.push_back({sample.curvature.point, sample.weight});
     return points;
+}
+
+/// True if a pose was refined to a closer fit than another one in the same place.
+bool fits_closer(const ScoredPose& pose, const ScoredPose& other) {
+    return closer * pose.refinement.rms + rounding * pose.length < other.refinement.rms;
 }
 
 /// What a model's file leaves open: the greatest conversion error and stated tolerance of its faces, mm.
@@ -137,6 +153,13 @@ void PoseSearch::consider(const Proposals& proposals, int keep, double start_cut
 
     const Points points{spread_points(original_.model.features.samples, refining_points),
                         spread_points(suspect_.model.features.samples, refining_points)};
+    const Judging judging{spread_samples(original_.model.features.samples, judging_samples),
+                          spread_samples(suspect_.model.features.samples, judging_samples)};
+    const RefineOptions exactly{.start_cutoff = near_cutoff,
+                                .maximum_steps = refining_steps,
+                                .sufficient_part_of_rms = sufficient_part_of_rms};
+    std::optional<ScoredPose> spare;  // the best of those that are not promising
+    double spare_shares = 0.0;
     for (std::size_t i = 0; i < chosen.size(); ++i) {
         if (out_of_time()) break;
         progress.report(0.5 + 0.5 * i / chosen.size(), "refining poses");
@@ -144,19 +167,37 @@ void PoseSearch::consider(const Proposals& proposals, int keep, double start_cut
         if (!approach(pose, points, start_cutoff, proposals.sampled, progress)) continue;
         const auto near = find_same(pose);
         if (near != poses_.end() && !near->approximate) continue;
-        const double shares = soft_shares(pose, FitTolerance::measured);
+        const double shares = judged_shares(pose.hypothesis.original_suspect, judging);
         pose.approximate = shares < unpromising * best_shares_;
         best_shares_ = std::max(best_shares_, shares);
-        if (!pose.approximate && !refine_exactly(pose, points, near_cutoff, progress)) continue;
-        const auto same = find_same(pose);
-        if (same == poses_.end())
-            poses_.push_back(std::move(pose));
-        else if (same->rank < pose.rank) {
-            pose.hypothesis.method = same->hypothesis.method;  // the method that came to it first
-            *same = std::move(pose);
+        if (pose.approximate) {
+            if (shares > spare_shares || !spare) {
+                spare = std::move(pose);
+                spare_shares = shares;
+            }
+            continue;
         }
+        if (!lay_on_surfaces(pose, points, exactly, progress)) continue;
+        const auto same = find_same(pose);
+        if (same != poses_.end() && !same->approximate && !fits_closer(pose, *same)) continue;
+        measure(pose, original_, suspect_);
+        add(std::move(pose));
+    }
+    if (spare) {
+        measure(*spare, original_samples_, suspect_samples_);
+        add(std::move(*spare));
     }
     sort_poses();
+}
+
+void PoseSearch::add(ScoredPose pose) {
+    const auto same = find_same(pose);
+    if (same == poses_.end()) {
+        poses_.push_back(std::move(pose));
+    } else if (same->rank < pose.rank) {
+        pose.hypothesis.method = same->hypothesis.method;  // the method that came to it first
+        *same = std::move(pose);
+    }
 }
 
 void PoseSearch::sort_poses() {
@@ -190,9 +231,12 @@ void PoseSearch::polish(std::size_t index, const Progress& progress) {
     if (pose.refinement.converged && pose.refinement.rms <= rounding * pose.length && !pose.approximate) return;
     const Points points{all_points(original_.model.features.samples), all_points(suspect_.model.features.samples)};
     ScoredPose better{.hypothesis = poses_[index].hypothesis};
-    if (refine_exactly(better, points, near_cutoff, progress) &&
-        (better.rank >= poses_[index].rank || poses_[index].approximate))
-        poses_[index] = std::move(better);
+    const RefineOptions finely{.start_cutoff = near_cutoff,
+                               .maximum_steps = refining_steps,
+                               .sufficient_part_of_rms = polished_part_of_rms};
+    if (!lay_on_surfaces(better, points, finely, progress)) return;
+    measure(better, original_, suspect_);
+    if (better.rank >= poses_[index].rank || poses_[index].approximate) poses_[index] = std::move(better);
 }
 
 bool PoseSearch::lay(ScoredPose& scored, const GroundSurface& ground, std::span<const WeightedPoint> points,
@@ -203,6 +247,7 @@ bool PoseSearch::lay(ScoredPose& scored, const GroundSurface& ground, std::span<
     if (scored.refinement.share < hopeless_share) return false;
     const SimilarityTransform& ground_points = scored.refinement.original_suspect;
     pose = larger_suspect ? ground_points.inverse() : ground_points;
+    scored.length = length(pose.scale);
     return true;
 }
 
@@ -213,25 +258,21 @@ bool PoseSearch::approach(ScoredPose& pose, const Points& points, double start_c
     const RefineOptions options{.scale = larger_suspect ? options_.scale.inverse() : options_.scale,
                                 .start_cutoff = start_cutoff,
                                 .maximum_steps = approaching_steps,
+                                .sufficient_part_of_rms = approaching_part_of_rms,
                                 .hold_determined = sampled};
     // What is near needs no approach: samples would only take it farther away.
     if (start_cutoff > near_cutoff && !lay(pose, larger_suspect ? suspect_samples_ : original_samples_,
                                            all.first(std::min(approaching_points, all.size())), options, progress))
         return false;
-    measure(pose, original_samples_, suspect_samples_);
     return true;
 }
 
-bool PoseSearch::refine_exactly(ScoredPose& pose, const Points& points, double start_cutoff,
-                                const Progress& progress) const {
+bool PoseSearch::lay_on_surfaces(ScoredPose& pose, const Points& points, RefineOptions options,
+                                 const Progress& progress) const {
     const bool larger_suspect = suspect_is_larger(pose.hypothesis.original_suspect.scale);
-    const RefineOptions options{.scale = larger_suspect ? options_.scale.inverse() : options_.scale,
-                                .start_cutoff = start_cutoff};
-    if (!lay(pose, larger_suspect ? suspect_ : original_, larger_suspect ? points.original : points.suspect, options,
-             progress))
-        return false;
-    measure(pose, original_, suspect_);
-    return true;
+    options.scale = larger_suspect ? options_.scale.inverse() : options_.scale;
+    return lay(pose, larger_suspect ? suspect_ : original_, larger_suspect ? points.original : points.suspect, options,
+               progress);
 }
 
 void PoseSearch::measure(ScoredPose& scored, const GroundSurface& original, const GroundSurface& suspect) const {
@@ -245,6 +286,16 @@ void PoseSearch::measure(ScoredPose& scored, const GroundSurface& original, cons
         sample_distances(suspect, oriented, original_.model.features.samples, pose.inverse(), limit / pose.scale);
     for (double& d : scored.original_distances) d *= pose.scale;
     scored.rank = soft_shares(scored, FitTolerance::reapproximated);
+}
+
+double PoseSearch::judged_shares(const SimilarityTransform& pose, const Judging& judging) const {
+    const bool oriented = original_.model.model.oriented() && suspect_.model.model.oriented();
+    const double tolerance =
+        options_.tolerance.value_or(FitTolerance::measured * length(pose.scale) + stated_tolerance(pose.scale));
+    return quick_score(original_samples_, oriented, suspect_.model.features.samples, judging.suspect, pose, tolerance,
+                       0.0) +
+           quick_score(suspect_samples_, oriented, original_.model.features.samples, judging.original, pose.inverse(),
+                       tolerance / pose.scale, 0.0);
 }
 
 double PoseSearch::soft_shares(const ScoredPose& pose, double relative_tolerance) const {

@@ -70,14 +70,21 @@ private:
     struct Points {
         std::vector<WeightedPoint> original, suspect;
     };
-    /// Brings a rough pose near with a few points on the tables of samples, on which it is then measured; false if too
-    /// little comes to lie.
+    /// Samples of either model that say whether an approached pose is promising.
+    struct Judging {
+        std::vector<int> original, suspect;
+    };
+    /// Brings a rough pose near with a few points on the tables of samples; false if too little comes to lie.
     bool approach(ScoredPose& pose, const Points& points, double start_cutoff, bool sampled,
                   const Progress& progress) const;
-    /// Refines a near pose on the surfaces themselves and measures it; false if too little comes to lie.
-    bool refine_exactly(ScoredPose& pose, const Points& points, double start_cutoff, const Progress& progress) const;
+    /// Soft shares of both models, on the tables of samples, within the tolerance of measured shapes.
+    double judged_shares(const SimilarityTransform& pose, const Judging& judging) const;
+    /// Refines a near pose on the surfaces themselves; false if too little comes to lie.
+    bool lay_on_surfaces(ScoredPose& pose, const Points& points, RefineOptions options, const Progress& progress) const;
     bool lay(ScoredPose& pose, const GroundSurface& ground, std::span<const WeightedPoint> points,
              const RefineOptions& options, const Progress& progress) const;
+    /// Adds a measured pose, or lets it take the place of a worse one that is the same.
+    void add(ScoredPose pose);
     void sort_poses();
     std::vector<ScoredPose>::iterator find_same(const ScoredPose& pose);
     /// Distances of all samples of both models.

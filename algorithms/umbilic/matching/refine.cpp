@@ -320,7 +320,9 @@ Refinement refine(const GroundSurface& original, std::span<const WeightedPoint> 
         const Step step = stepped(pose, equations, result.radius, free_scale, damping, options.scale);
         pose = step.pose;
         free_scale = free_scale && !step.at_end;
-        if (settled && (step.length < std::max(rounding_step, options.sufficient_step) ||
+        const double sufficient =
+            std::max(options.sufficient_step, options.sufficient_part_of_rms * result.rms / result.radius);
+        if (settled && (step.length < std::max(rounding_step, sufficient) ||
                         (step.length < stagnation && step.length >= last_step))) {
             result.converged = true;
             break;

@@ -28,6 +28,8 @@ struct RefineOptions {
     int maximum_steps = 60;
     /// A step below this part of the radius (see Refinement) ends the refinement; 0: one of the order of rounding.
     double sufficient_step = 0.0;
+    /// So does one that moves the points by less than this part of the root mean square of their distances.
+    double sufficient_part_of_rms = 0.0;
     /// Points that hang over a border are drawn back to it instead of being left out: for a suspect of which nothing
     /// is foreign, and that could otherwise slide off a border without resistance.
     bool hold_borders = false;
