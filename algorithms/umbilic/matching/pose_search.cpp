@@ -36,11 +36,13 @@ constexpr double larger = 1.5;
 /// An approached pose whose soft shares, at the tolerance of measured shapes, are below this part of the best ones so
 /// far is not worth the exact distances: the best of them is measured on the tables of samples, to be reported.
 constexpr double unpromising = 0.25;
-/// The first refinement on the surfaces ends with a step that moves the points by less than this part of the root mean
-/// square of their distances; the pose that wins is polished, until a step is below a smaller part. A pose that fits has
-/// taken far fewer steps than these.
-constexpr double sufficient_part_of_rms = 1e-3, polished_part_of_rms = 1e-6;
+/// A refinement on the surfaces ends with a step that moves the points by less than this part of the root mean square
+/// of their distances: chance alone moves the pose by more, rms / sqrt(points). A pose that fits has taken far fewer
+/// steps than these.
+constexpr double sufficient_part_of_rms = 1e-3;
 constexpr int refining_steps = 30;
+/// Polishing starts from the cut-off of the first refinement times this.
+constexpr double wider = 2.0;
 /// A refined pose whose residuals are below this part of the length, the rounding of files, gains nothing from more
 /// points.
 constexpr double rounding = 1e-10;
@@ -231,9 +233,10 @@ void PoseSearch::polish(std::size_t index, const Progress& progress) {
     if (pose.refinement.converged && pose.refinement.rms <= rounding * pose.length && !pose.approximate) return;
     const Points points{all_points(original_.model.features.samples), all_points(suspect_.model.features.samples)};
     ScoredPose better{.hypothesis = poses_[index].hypothesis};
-    const RefineOptions finely{.start_cutoff = near_cutoff,
+    const double known_cutoff = pose.approximate ? near_cutoff : wider * pose.refinement.cutoff / pose.length;
+    const RefineOptions finely{.start_cutoff = std::clamp(known_cutoff, rounding, near_cutoff),
                                .maximum_steps = refining_steps,
-                               .sufficient_part_of_rms = polished_part_of_rms};
+                               .sufficient_part_of_rms = sufficient_part_of_rms};
     if (!lay_on_surfaces(better, points, finely, progress)) return;
     measure(better, original_, suspect_);
     if (better.rank >= poses_[index].rank || poses_[index].approximate) poses_[index] = std::move(better);
