@@ -260,24 +260,6 @@ TEST(Match, MirrorSymmetricShapeFitsInBothHands) {
     EXPECT_LT((reflection.orthogonal() - Matrix3(Vector3(-1, 1, 1).asDiagonal())).norm(), 1e-9);
 }
 
-TEST(Match, EveryCopyInsideTheOriginalIsListed) {
-    const NurbsSurface surface = rough_bicubic(10, 21);
-    const SimilarityTransform second = random_similarity(31, 1.0, false, 3.0), place = random_similarity(8, 0.6, false);
-    const Model original = model_of({surface, transformed(surface, second)});
-    const Model suspect = model_of({transformed(surface, place.inverse())});
-    const Alignment alignment = match_models(original, suspect);
-    SCOPED_TRACE(alignment.why);
-    ASSERT_EQ(alignment.status, AlignmentStatus::found);
-    ASSERT_EQ(alignment.symmetries.size(), 1u);
-    std::vector<double> errors;
-    for (const SimilarityTransform& pose : {alignment.original_suspect, alignment.symmetries.front()})
-        errors.push_back(
-            std::min(pose_error(pose, place, original), pose_error(pose, compose(second, place), original)));
-    EXPECT_LT(errors[0], 1e-9);
-    EXPECT_LT(errors[1], 1e-9);
-    EXPECT_EQ(alignment.copies.size(), 2u);
-}
-
 TEST(Match, APieceBesideForeignMaterialIsFound) {
     const NurbsSurface surface = rough_bicubic(10, 3);
     const SimilarityTransform truth = random_similarity(9, 1.4, false);
@@ -309,30 +291,6 @@ TEST(Match, ATimeLimitLeavesTheBestPoseSoFar) {
     for (const double seconds : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
         options.seconds = seconds;
         EXPECT_THROW(match_models(original, suspect, options), InvalidInput);
-    }
-}
-
-TEST(Match, CopiesInAnAssemblyCountOncePerPlace) {
-    // Even in x: each copy fits in both hands, but stands in one place.
-    const NurbsSurface surface = support::graph_patch(4, 3, [](double x, double y) {
-        return 0.3 * x * x + 0.15 * y * y - 0.25 * x * x * y + 0.2 * y * y * y - 0.1 * x * x * x * x;
-    });
-    const Model original = model_of({surface});
-    std::vector<NurbsSurface> faces = {rough_bicubic(10, 5)};
-    for (const int seed : {41, 42, 43})
-        faces.push_back(transformed(surface, compose(random_similarity(seed, 1.0, false, 6.0), SimilarityTransform())));
-    const Alignment alignment = match_models(original, model_of(faces));
-    SCOPED_TRACE(alignment.why);
-    ASSERT_EQ(alignment.status, AlignmentStatus::found);
-    EXPECT_EQ(alignment.symmetries.size(), 5u);
-    ASSERT_EQ(alignment.copies.size(), 3u);
-    for (const int seed : {41, 42, 43}) {
-        const Vector3 stands = random_similarity(seed, 1.0, false, 6.0).apply(Vector3(0.5, 0.5, 0.0));
-        const auto near = [&](const SimilarityTransform& pose) {
-            return std::min((pose.apply(stands) - Vector3(0.5, 0.5, 0.0)).norm(),
-                            (pose.apply(stands) - Vector3(-0.5, 0.5, 0.0)).norm()) < 1e-9;
-        };
-        EXPECT_EQ(std::count_if(alignment.copies.begin(), alignment.copies.end(), near), 1) << seed;
     }
 }
 

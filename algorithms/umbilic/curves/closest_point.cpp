@@ -35,8 +35,12 @@ struct Range {
 /// One query. Everything is relative to the tree's origin.
 class Search {
 public:
-    Search(const CellTree& tree, const Vector3& point, double limit)
-        : tree_(tree), p_(point - tree.origin), slack_(rounding * (p_.norm() + tree.radius)), best_(limit) {}
+    Search(const CellTree& tree, const Vector3& point, double limit, int without)
+        : tree_(tree),
+          p_(point - tree.origin),
+          without_(without),
+          slack_(rounding * (p_.norm() + tree.radius)),
+          best_(limit) {}
 
     std::optional<ClosestPoint> run();
 
@@ -52,6 +56,7 @@ private:
 
     const CellTree& tree_;
     Vector3 p_;
+    int without_;  ///< number of the face that is left out
     double slack_;
     double best_;
     bool found_ = false;
@@ -126,6 +131,7 @@ std::optional<ClosestPoint> Search::run() {
         if (entry.squared > limit * limit) continue;
         if (entry.child < 0) {
             const Cell& cell = tree_.cells[-1 - entry.child];
+            if (without_ != 0 && tree_.faces[tree_.patches[cell.patch].face].number == without_) continue;
             if (!close(cell)) halve(cell);
             continue;
         }
@@ -363,10 +369,10 @@ ClosestPointTree::~ClosestPointTree() = default;
 ClosestPointTree::ClosestPointTree(ClosestPointTree&&) noexcept = default;
 ClosestPointTree& ClosestPointTree::operator=(ClosestPointTree&&) noexcept = default;
 
-std::optional<ClosestPoint> ClosestPointTree::closest(const Vector3& point, double limit) const {
+std::optional<ClosestPoint> ClosestPointTree::closest(const Vector3& point, double limit, int without) const {
     if (!point.allFinite()) throw InvalidInput("closest point: a coordinate of the point is not finite");
     if (!(limit >= 0.0)) throw InvalidInput("closest point: the limit must not be negative");
-    return Search(*tree_, point, limit).run();
+    return Search(*tree_, point, limit, without).run();
 }
 
 std::vector<ClosestPoint> ClosestPointTree::closest(std::span<const Vector3> points, double limit) const {

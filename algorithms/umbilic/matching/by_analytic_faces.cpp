@@ -265,19 +265,29 @@ private:
         return sum / area_;
     }
 
-    /// Poses for assignments that do not fix one: what is open is set to some values of many, so that every assignment
-    /// gets its first pose before any gets its second.
+    /// Poses for assignments that do not fix one: what is open is set to some values of many, the assignments that
+    /// explain most first, so that every assignment gets its first pose before any gets its second.
     void fill_in() {
+        for (OpenAssignment& open : open_) {
+            progress_.check();
+            pairs_ = open.pairs;
+            for (const SimilarityTransform& pose : filled_in(open.scale, place_on(*pairs_.front().original, 0), 1))
+                open.share = std::max(open.share, explained_by(pose, 0.0));
+        }
+        std::stable_sort(open_.begin(), open_.end(), [](const auto& a, const auto& b) { return a.share > b.share; });
         for (int k = 0; k <= free_places; ++k)
             for (const OpenAssignment& open : open_) {
                 if (poses.size() >= most_filled) return;
                 progress_.check();
                 pairs_ = open.pairs;
-                fill_in(open.scale, place_on(*pairs_.front().original, k));
+                for (const SimilarityTransform& pose :
+                     filled_in(open.scale, place_on(*pairs_.front().original, k), free_turns))
+                    keep(pose);
             }
     }
 
-    void fill_in(double scale, const Vector3& image) {
+    /// What the pairs leave open filled in with one place, the likely scales, and so many turns.
+    std::vector<SimilarityTransform> filled_in(double scale, const Vector3& image, int turns) const {
         std::vector<double> scales = {scale};
         if (scale == 0.0) {
             scales = {scale_.clamp(1.0)};
@@ -286,9 +296,11 @@ private:
             if (scale_possible(fitting)) scales.push_back(fitting);
         }
         const Vector3 point = pairs_.front().suspect->middle;
+        std::vector<SimilarityTransform> result;
         for (const double s : scales)
-            for (const Matrix3& map : open_maps())
-                keep(place(pairs_, map, {s, point, image}, moved_length_, scale_).original_suspect);
+            for (const Matrix3& map : open_maps(turns))
+                result.push_back(place(pairs_, map, {s, point, image}, moved_length_, scale_).original_suspect);
+        return result;
     }
 
     /// The middle of a feature of the ground, and from 1 on points spread over its faces.
@@ -301,8 +313,8 @@ private:
         return samples[(2 * which - 1) * samples.size() / (2 * free_places)];
     }
 
-    /// Orthogonal maps that agree with the pairs' directions, turned in steps where they leave a turn open.
-    std::vector<Matrix3> open_maps() const {
+    /// Orthogonal maps that agree with the pairs' directions, turned in so many steps where they leave a turn open.
+    std::vector<Matrix3> open_maps(int turns) const {
         std::vector<Matrix3> maps = orthogonal_maps(pairs_, moved_length_, mirrored_too_);
         if (!maps.empty()) return maps;
         Matrix3 first = Matrix3::Identity();
@@ -313,8 +325,8 @@ private:
                 first = Eigen::Quaterniond::FromTwoVectors(pair.suspect->direction, axis).toRotationMatrix();
                 break;
             }
-        for (int k = 0; k < free_turns; ++k) {
-            const double angle = 2.0 * std::numbers::pi * k / free_turns;
+        for (int k = 0; k < turns; ++k) {
+            const double angle = 2.0 * std::numbers::pi * k / turns;
             maps.push_back(Eigen::AngleAxisd(angle, axis).toRotationMatrix() * first);
         }
         return maps;
@@ -336,6 +348,7 @@ private:
     struct OpenAssignment {
         std::vector<FeaturePair> pairs;
         double scale = 0.0;
+        double share = 0.0;  ///< what its first pose explains
     };
     std::vector<OpenAssignment> open_;
     long steps_ = 0;

@@ -260,6 +260,13 @@ bool settled(const PoseSearch& search) {
     return fit.level == FitLevel::found && (enough_exactly || std::max(fit.suspect.share, fit.original.share) >= whole);
 }
 
+bool has_room_for_copies(const PoseSearch& search) {
+    if (search.poses().empty()) return false;
+    const Fit fit = judge(search.poses().front(), search);
+    return fit.level == FitLevel::found && fit.original.share >= whole &&
+           1.0 - fit.suspect.share >= whole * fit.suspect.share;
+}
+
 Alignment decide_alignment(PoseSearch& search, const std::string& tried, const Progress& progress) {
     Alignment alignment;
     if (search.poses().empty()) {
@@ -323,7 +330,9 @@ Alignment decide_alignment(PoseSearch& search, const std::string& tried, const P
             ++strangers;
         alignment.runners_up.push_back(candidate(poses[equals[k].index], equals[k].fit));
     }
-    if (strangers == 0) complete_symmetries(search, pose, best.fit, alignment.symmetries, progress);
+    // Where a motion is free there is no end of them, and the motion tells them all.
+    if (strangers == 0 && best.fit.free_motions.empty())
+        complete_symmetries(search, pose, best.fit, alignment.symmetries, progress);
     std::stable_sort(others.begin(), others.end(), [&](const Ranked& a, const Ranked& b) {
         return a.fit.suspect.soft + a.fit.original.soft > b.fit.suspect.soft + b.fit.original.soft;
     });

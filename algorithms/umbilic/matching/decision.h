@@ -38,6 +38,10 @@ Fit judge(const ScoredPose& pose, const PoseSearch& search);
 /// exact and does not come from analytic faces alone.
 bool settled(const PoseSearch& search);
 
+/// True if the best pose finds the whole original in the suspect, and what is left of the suspect is enough for another
+/// copy of it.
+bool has_room_for_copies(const PoseSearch& search);
+
 /// Best pose, the others, the symmetries among them and the status. Poses that fit equally well as the best one are
 /// listed as symmetries: the shape's own (the motion between the two poses lays the original or the suspect on itself),
 /// or, of exact fits, places where the original repeats. If the fit is not exact, a different pose that is no symmetry

@@ -22,6 +22,10 @@ public:
     virtual ~GroundSurface() = default;
     /// Closest point of the shape; nothing if it is farther than `limit` (mm).
     virtual std::optional<GroundFoot> foot(const Vector3& point, double limit) const = 0;
+    /// The same on another face than the foot's, where faces touch; nothing on shapes without faces.
+    virtual std::optional<GroundFoot> foot_on_other_face(const Vector3&, double /*limit*/, const GroundFoot&) const {
+        return {};
+    }
 };
 
 }  // namespace umbilic

@@ -25,6 +25,8 @@ namespace {
 
 /// Poses of one method that are refined. Moments and analytic faces: a cube has 48 symmetries. Open: all are as good.
 constexpr int refined_poses = 16, refined_moments = 48, refined_analytic = 48, refined_open = 12;
+/// The same in the search for further copies.
+constexpr int refined_copies = 48;
 /// How far the hypotheses of a method may be off, as a part of the suspect's length: one umbilic of a re-approximated
 /// copy turns by a few degrees, sampled rotations are up to 15 degrees off, given pairs and poses may be rough, a
 /// principal frame comes from the nearest sample, votes of the method kh agree within 0.05; analytic faces are known to
@@ -209,6 +211,14 @@ Alignment match(const PreparedModel& original, const PreparedModel& suspect, con
             consider(kh_poses(original, suspect, options, swapped, part.part(0.0, 0.8)), refined_poses, kh_error,
                      part.part(0.8, 1.0));
         }
+    }
+    // An original that was found as a whole may stand in the suspect more than once.
+    if (options.method == MethodChoice::automatic && !search.out_of_time() && has_room_for_copies(search)) {
+        consider(poses_by_umbilics(original, suspect, options.scale, options.mirror,
+                                   options.umbilic_invariant_tolerance, progress.part(0.84, 0.85)),
+                 refined_copies, umbilics_error, progress.part(0.85, 0.86));
+        consider(poses_by_principal_frame(original, suspect, options, Seeds::first, true, progress.part(0.86, 0.87)),
+                 refined_copies, curvature_error, progress.part(0.87, 0.88));
     }
     if (!search.out_of_time()) fix_by_borders(search, progress.part(0.88, 0.9));
     if (search.out_of_time()) tried += tried.empty() ? "nothing in the time allowed" : "; the time allowed was used up";

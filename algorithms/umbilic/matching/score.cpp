@@ -15,11 +15,17 @@ constexpr double nowhere = std::numeric_limits<double>::infinity();
 
 double sample_distance(const GroundSurface& ground, const AreaSample& sample, const SimilarityTransform& ground_suspect,
                        double limit, bool oriented) {
-    const auto foot = ground.foot(ground_suspect.apply(sample.curvature.point), limit);
-    if (!foot) return nowhere;
-    if (foot->at_border || !foot->normal) return foot->distance;
-    const double cosine = foot->normal->dot(ground_suspect.apply_direction(sample.curvature.normal));
-    return (oriented ? cosine : std::abs(cosine)) >= agreeing_cosine ? foot->distance : nowhere;
+    const Vector3 point = ground_suspect.apply(sample.curvature.point);
+    const Vector3 normal = ground_suspect.apply_direction(sample.curvature.normal);
+    const auto agrees = [&](const GroundFoot& foot) {
+        if (foot.at_border || !foot.normal) return true;
+        const double cosine = foot.normal->dot(normal);
+        return (oriented ? cosine : std::abs(cosine)) >= agreeing_cosine;
+    };
+    auto foot = ground.foot(point, limit);
+    // Where parts of an assembly touch, the face of the other part may have come first.
+    if (foot && !agrees(*foot)) foot = ground.foot_on_other_face(point, limit, *foot);
+    return foot && agrees(*foot) ? foot->distance : nowhere;
 }
 
 double van_der_corput(unsigned index) {
@@ -32,7 +38,15 @@ double van_der_corput(unsigned index) {
 }  // namespace
 
 std::optional<GroundFoot> Ground::foot(const Vector3& point, double limit) const {
-    const auto closest = model.tree.closest(point, limit);
+    return foot_without(point, limit, 0);
+}
+
+std::optional<GroundFoot> Ground::foot_on_other_face(const Vector3& point, double limit, const GroundFoot& foot) const {
+    return foot_without(point, limit, foot.at.face);
+}
+
+std::optional<GroundFoot> Ground::foot_without(const Vector3& point, double limit, int face) const {
+    const auto closest = model.tree.closest(point, limit, face);
     if (!closest || closest->distance > limit) return {};
     return GroundFoot{closest->point, normals.at(closest->at), closest->distance, closest->kind != FootKind::interior,
                       closest->at};

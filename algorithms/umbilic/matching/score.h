@@ -22,6 +22,11 @@ struct Ground : GroundSurface {
 
     explicit Ground(const PreparedModel& prepared) : model(prepared), normals(prepared.model) {}
     std::optional<GroundFoot> foot(const Vector3& point, double limit) const override;
+    std::optional<GroundFoot> foot_on_other_face(const Vector3& point, double limit,
+                                                 const GroundFoot& foot) const override;
+
+private:
+    std::optional<GroundFoot> foot_without(const Vector3& point, double limit, int face) const;
 };
 
 /// Distances (mm of the ground) of all samples of `suspect`, moved by `ground_suspect`, from the ground; infinity where
