@@ -29,9 +29,9 @@ constexpr long boxes_per_check = 1024;
 /// A direction is not split beyond the limit for the other if its relative variation is below this share of it.
 constexpr double least_variation = 0.01;
 
-/// Boxes of this depth and more are searched for regions within tolerances with polynomials of this degree if those are
-/// near enough.
-constexpr int reduced_degree = 6, first_reduction = 2;
+/// Boxes of this depth and more are searched for regions within tolerances with polynomials of these degrees if those
+/// are near enough.
+constexpr int reduced_degree = 5, lowest_degree = 3, first_reduction = 2;
 
 bool inside_unit(const Vector2& at, double radius) {
     return at.minCoeff() - radius >= 0.0 && at.maxCoeff() + radius <= 1.0;
@@ -61,7 +61,7 @@ void CurvatureLevelSearch::set_equations(const CurvatureEquations& equations) {
     const TensorPolynomial* source[] = {&equations.q, &equations.s, &equations.t, &equations.w};
     rational_ = equations.rational;
     arrays_ = rational_ ? 4 : 3;
-    shape_ = {equations.q.u_degree, equations.q.v_degree};
+    shape_ = error_shape_ = {equations.q.u_degree, equations.q.v_degree};
     const std::size_t size = shape_.size();
     root_.resize(arrays_ * size);
     for (int k = 0; k < arrays_; ++k) {
@@ -100,7 +100,7 @@ long CurvatureLevelSearch::run(std::span<const CurvatureLevel> levels, const Lev
         if (++visited % boxes_per_check == 0) progress.check();
         Node& node = nodes_[top];
         double* slot = slots_.data() + top * stride;
-        box_.take(shape_, rational_, slot, node.errors);
+        box_.take(shape_, rational_, slot, node.errors, error_shape_);
         const double u_share = node.box.u.length() / limits.u_size, v_share = node.box.v.length() / limits.v_size;
         const bool fine = u_share <= 1.0 && v_share <= 1.0;
         const auto own = std::span(live_).subspan(node.first_live, node.live);
@@ -177,12 +177,14 @@ long CurvatureLevelSearch::run(std::span<const CurvatureLevel> levels, const Lev
 }
 
 bool CurvatureLevelSearch::reduce(const Node& node, const double* coefficients) {
-    const CoefficientShape low{std::min(shape_.p, reduced_degree), std::min(shape_.q, reduced_degree)};
+    const int degree = std::max(shape_.p, shape_.q) > reduced_degree ? reduced_degree : lowest_degree;
+    const CoefficientShape low{std::min(shape_.p, degree), std::min(shape_.q, degree)};
     if (low.size() == shape_.size() || node.depth < first_reduction || node.depth % 2 != 0) return false;
     const bool fits = reduction_ && reduction_->from().p == shape_.p && reduction_->from().q == shape_.q;
     if (!fits) reduction_.emplace(shape_, low);
     if (!lower_) lower_ = std::make_unique<CurvatureLevelSearch>();
     lower_->shape_ = low;
+    lower_->error_shape_ = error_shape_;
     lower_->arrays_ = arrays_;
     lower_->rational_ = rational_;
     const std::size_t size = low.size(), needed = arrays_ * size;
@@ -258,7 +260,7 @@ void CurvatureLevelSearch::take_other(const Node& node, const Vector2& low, cons
         const double factor = restrict_u(shape_, c, low.x(), high.x()) * restrict_v(shape_, c, low.y(), high.y());
         errors[k] = factor * (errors[k] + gamma_bound(8 * (shape_.p + shape_.q)) * box_.magnitudes()[k]) * bound_slack;
     }
-    other_box_.take(shape_, rational_, other_.data(), errors);
+    other_box_.take(shape_, rational_, other_.data(), errors, error_shape_);
 }
 
 std::optional<bool> CurvatureLevelSearch::restricted_within(const CurvatureLevel& level, const Node& node,

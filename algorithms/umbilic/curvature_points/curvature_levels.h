@@ -91,6 +91,7 @@ private:
     void leave(const Node& node, int number, LevelSets& result) const;
 
     CoefficientShape shape_;
+    CoefficientShape error_shape_;  ///< degrees of the equations, of which those searched may be reductions
     int arrays_ = 0;
     bool rational_ = false;
     std::vector<double> root_, slots_, other_;

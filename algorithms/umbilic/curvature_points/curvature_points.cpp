@@ -293,17 +293,19 @@ std::vector<CurvaturePoint> SurfaceSearch::parts(const Wanted& wanted, const std
     }
     if (!wanted.level.exact())
         for (const CurvaturePoint& point : points)
-            for (std::size_t k = 0; k < boxes.size(); ++k)
-                if (boxes[k].box.contains(point.at.u, point.at.v)) {
-                    CurvaturePoint& part = result[clusters.cluster[k]];
-                    part.solutions += point.solutions;
-                    if (!part.certified) {
-                        part.at = point.at;
-                        part.certified = point.certified;
-                        part.radius = point.radius;
-                    }
-                    break;
+            for (int k = 0; k < clusters.count; ++k) {
+                CurvaturePoint& part = result[k];
+                const auto holds = [&](const ParameterBox& box) { return box.contains(point.at.u, point.at.v); };
+                const auto box_holds = [&](const LooseBox& loose) { return holds(loose.box); };
+                if (!holds(part.extent) || std::none_of(members[k].begin(), members[k].end(), box_holds)) continue;
+                part.solutions += point.solutions;
+                if (!part.certified) {
+                    part.at = point.at;
+                    part.certified = point.certified;
+                    part.radius = point.radius;
                 }
+                break;
+            }
     for (int k = 0; k < clusters.count; ++k)
         if (!result[k].certified) improve(wanted, members[k], result[k]);
     return result;
