@@ -37,6 +37,20 @@ Interval coefficient_range(const double* c, int count) {
     return result.range();
 }
 
+Interval range_beside(CoefficientShape shape, const double* c, const Vector2& slope) {
+    RangeOfFour result;
+    const int length = shape.row_length();
+    const double u_step = shape.p > 0 ? slope.x() / shape.p : 0.0, v_step = shape.q > 0 ? slope.y() / shape.q : 0.0;
+    const Eigen::Array4d steps = v_step * Eigen::Array4d(0.0, 1.0, 2.0, 3.0);
+    for (int i = 0; i <= shape.p; ++i, c += length) {
+        int j = 0;
+        for (; j + 4 <= length; j += 4)
+            result.add(Eigen::Map<const Eigen::Array4d>(c + j) - steps - (i * u_step + j * v_step));
+        for (; j < length; ++j) result.add(c[j] - (i * u_step + j * v_step));
+    }
+    return result.range();
+}
+
 std::array<Interval, 2> difference_hulls(CoefficientShape shape, const double* c) {
     const int length = shape.row_length();
     const auto add = [](RangeOfFour& result, const double* from, const double* to, int count) {

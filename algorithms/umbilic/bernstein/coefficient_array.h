@@ -18,6 +18,9 @@ Interval coefficient_range(const double* coefficients, int count);
 /// degree. 0 along a direction of degree 0.
 std::array<Interval, 2> difference_hulls(CoefficientShape shape, const double* coefficients);
 
+/// Range of the coefficients less those of the linear polynomial slope . (u, v).
+Interval range_beside(CoefficientShape shape, const double* coefficients, const Vector2& slope);
+
 /// Mean derivatives over [0, 1]^2.
 Vector2 mean_derivative(CoefficientShape shape, const double* coefficients);
 

@@ -23,6 +23,8 @@ constexpr int newton_steps = 12;
 /// A box that meets the region within the tolerances counts as part of it if K and H vary by less than this over it, in
 /// units of the tolerances: so it reaches out of the region by as much at most.
 constexpr double widest_range = 3.0;
+/// On a convex part of a box that is taken for a part of that region K and H are within so many tolerances.
+constexpr double widest_part = 2.0;
 /// Part of the tolerances that a change of the arrays may use up.
 constexpr double small_blur = 0.05;
 /// Roundings in the constants and weights of a linearisation, in units of roundoff of its largest term.
@@ -172,6 +174,27 @@ bool CurvatureBox::within(const CurvatureLevel& level) const {
     if (hull_[0].magnitude() + k_rest <= k_room && hull_[1].magnitude() + h_rest <= h_room) return true;
     return hull_[0].high - hull_[0].low + 2 * k_rest <= widest_range * k_room &&
            hull_[1].high - hull_[1].low + 2 * h_rest <= widest_range * h_room;
+}
+
+std::optional<std::array<LinearBand, 2>> CurvatureBox::bands(const CurvatureLevel& level) const {
+    const double least[2] = {level.gaussian_tolerance * g_.low, 2 * level.mean_tolerance * h_.low};
+    const double most[2] = {level.gaussian_tolerance * g_.high, 2 * level.mean_tolerance * h_.high};
+    std::array<LinearBand, 2> result;
+    for (int k = 0; k < 2; ++k) {
+        // Bound on f_k less its linear part, before the coefficients' own distance from that.
+        double rest = own_remainder_[k] + error_[k];
+        if (!(most[k] + 2 * rest <= widest_part * least[k])) return std::nullopt;
+        const double* f = combined_.data() + k * shape_.size();
+        const Vector2 slope = mean_derivative(shape_, f);
+        const Interval beside = range_beside(shape_, f, slope);
+        const double size = size_[k] + std::abs(constant_[k]) + slope.lpNorm<1>();
+        rest = (rest + 0.5 * (beside.high - beside.low) + linearisation_units * size) * bound_slack;
+        const bool everywhere = hull_[k].magnitude() + own_remainder_[k] * bound_slack + error_[k] <= least[k];
+        if (!everywhere && !(most[k] + 2 * rest <= widest_part * least[k])) return std::nullopt;
+        result[k] = {slope, constant_[k] + beside.middle(),
+                     everywhere ? std::numeric_limits<double>::infinity() : most[k] + rest};
+    }
+    return result;
 }
 
 bool CurvatureBox::tolerates(const CurvatureLevel& level, const std::array<double, most_arrays>& errors) const {

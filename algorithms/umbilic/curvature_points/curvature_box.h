@@ -10,6 +10,7 @@
 #include <umbilic/bernstein/interval.h>
 #include <umbilic/bernstein/subdivision.h>
 #include <umbilic/core/types.h>
+#include <umbilic/curvature_points/box_part.h>
 
 namespace umbilic {
 
@@ -44,6 +45,9 @@ public:
     bool vanishes() const;
     /// After linearise(): the box lies wholly within the tolerances, or the ranges of K and H are below twice them.
     bool within(const CurvatureLevel& level) const;
+    /// After linearise(): if K and H are nearly linear on the box, bands in which its points within the tolerances lie,
+    /// and in both of which K and H are within twice the tolerances. Coordinates run from 0 to 1 over the box.
+    std::optional<std::array<LinearBand, 2>> bands(const CurvatureLevel& level) const;
     /// After linearise(): further errors of the arrays would blur K and H by a small part of the tolerances only.
     bool tolerates(const CurvatureLevel& level, const std::array<double, most_arrays>& errors) const;
     /// After linearise(): see LevelBox::misfit.

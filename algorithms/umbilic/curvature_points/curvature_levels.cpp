@@ -29,9 +29,9 @@ constexpr long boxes_per_check = 1024;
 /// A direction is not split beyond the limit for the other if its relative variation is below this share of it.
 constexpr double least_variation = 0.01;
 
-/// Boxes of this depth and more are searched for regions within tolerances with polynomials of these degrees if those
-/// are near enough.
-constexpr int reduced_degree = 5, lowest_degree = 3, first_reduction = 2;
+/// Boxes of this depth and more are searched for regions within tolerances with polynomials of this degree if those are
+/// near enough.
+constexpr int reduced_degree = 6, first_reduction = 2;
 
 bool inside_unit(const Vector2& at, double radius) {
     return at.minCoeff() - radius >= 0.0 && at.maxCoeff() + radius <= 1.0;
@@ -177,8 +177,7 @@ long CurvatureLevelSearch::run(std::span<const CurvatureLevel> levels, const Lev
 }
 
 bool CurvatureLevelSearch::reduce(const Node& node, const double* coefficients) {
-    const int degree = std::max(shape_.p, shape_.q) > reduced_degree ? reduced_degree : lowest_degree;
-    const CoefficientShape low{std::min(shape_.p, degree), std::min(shape_.q, degree)};
+    const CoefficientShape low{std::min(shape_.p, reduced_degree), std::min(shape_.q, reduced_degree)};
     if (low.size() == shape_.size() || node.depth < first_reduction || node.depth % 2 != 0) return false;
     const bool fits = reduction_ && reduction_->from().p == shape_.p && reduction_->from().q == shape_.q;
     if (!fits) reduction_.emplace(shape_, low);
@@ -195,7 +194,7 @@ bool CurvatureLevelSearch::reduce(const Node& node, const double* coefficients) 
 }
 
 void CurvatureLevelSearch::leave(const Node& node, int number, LevelSets& result) const {
-    result.boxes.push_back({number, node.box, std::numeric_limits<double>::infinity()});
+    result.boxes.push_back({number, {node.box, {}}, std::numeric_limits<double>::infinity()});
 }
 
 CurvatureLevelSearch::Outcome CurvatureLevelSearch::examine(const Node& node, const CurvatureLevel& level, int number,
@@ -214,7 +213,12 @@ CurvatureLevelSearch::Outcome CurvatureLevelSearch::examine(const Node& node, co
 CurvatureLevelSearch::Outcome CurvatureLevelSearch::examine_region(const Node& node, const CurvatureLevel& level,
                                                                    int number, LevelSets& result) {
     if (box_.within(level)) {
-        result.boxes.push_back({number, node.box, box_.misfit(level)});
+        result.boxes.push_back({number, {node.box, {}}, box_.misfit(level)});
+        return Outcome::empty;
+    }
+    if (const auto bands = box_.bands(level)) {
+        std::optional<BoxPart> part = part_within(node.box, *bands);
+        if (part) result.boxes.push_back({number, std::move(*part), box_.misfit(level)});
         return Outcome::empty;
     }
     const std::optional<Matrix2> preconditioner = box_.preconditioner();
@@ -246,7 +250,8 @@ CurvatureLevelSearch::Outcome CurvatureLevelSearch::examine_region(const Node& n
     }
     const Vector2 side(node.box.u.length(), node.box.v.length()), corner(node.box.u.low, node.box.v.low);
     const Vector2 from = corner + side.cwiseProduct(low), to = corner + side.cwiseProduct(high);
-    result.boxes.push_back({number, {{from.x(), to.x()}, {from.y(), to.y()}}, holds_solution ? 0.0 : 1.0});
+    const BoxPart part{{{from.x(), to.x()}, {from.y(), to.y()}}, {}};
+    result.boxes.push_back({number, part, holds_solution ? 0.0 : 1.0});
     return Outcome::empty;
 }
 
