@@ -46,18 +46,6 @@ void add_curve_options(CLI::App& subcommand, CurveOptions& options) {
     subcommand.add_option("-o,--output", options.output, "STEP file for the curves");
 }
 
-/// Joins to other faces, unless the curve shall stay on one.
-class Joins {
-public:
-    Joins(const Model& model, bool one_face) {
-        if (!one_face && model.faces.size() > 1) joined_.emplace(model);
-    }
-    const SmoothJoins* get() const { return joined_ ? &joined_->joins : nullptr; }
-
-private:
-    std::optional<JoinedFaces> joined_;
-};
-
 std::string face_list(const SurfaceCurve& curve) {
     std::string text;
     int last = 0;
@@ -179,7 +167,7 @@ void add_geodesic(CLI::App& curve, Session& session, Command& command) {
             const Model& model = read.model;
             const Face& face = chosen_face(model, options->face, "--face");
             const Vector2 from = chosen_point(model, face, "--from", options->from);
-            const Joins joined(model, options->one_face);
+            const OptionalJoins joined(model, options->one_face);
             const Progress& progress = session.progress;
             CurveResult result{.kind = "geodesic", .model = &model};
             if (!options->direction.empty()) {
@@ -217,7 +205,7 @@ struct ProjectOptions : CurveOptions {
 CurveResult projections(const ProjectOptions& options, const std::optional<Model>& original, const Model& onto,
                         const Progress& progress) {
     const Face& target = chosen_face(onto, options.onto_face, "--onto-face");
-    const Joins target_joined(onto, options.one_face);
+    const OptionalJoins target_joined(onto, options.one_face);
     ProjectionOptions projection{.spacing = options.spacing, .joins = target_joined.get()};
     if (options.tolerance) projection.tolerance = *options.tolerance;
     if (!options.foot.empty()) projection.foot = chosen_point(onto, target, "--foot", options.foot);
@@ -259,7 +247,7 @@ CurveResult projections(const ProjectOptions& options, const std::optional<Model
         return result;
     }
     const Vector3 direction = three_numbers("--direction", options.direction);
-    const Joins joined(*original, options.one_face);
+    const OptionalJoins joined(*original, options.one_face);
     projection.original_joins = joined.get();
     const CurvatureFamily family = options.family == "maximum" ? CurvatureFamily::maximum : CurvatureFamily::minimum;
     add(options.family, as_asked(options.path, [&] {

@@ -100,24 +100,31 @@ double iges_unit_in_mm(const IGESData_GlobalSection& section) {
     return 1.0;
 }
 
+/// Parses and translates a file into a document with names and colours. `format` stands in messages.
+template <class Reader>
+Handle(TDocStd_Document)
+    translated(Reader& reader, const std::string& format, const std::string& path, const Progress& progress) {
+    progress.report(0.0, "parsing " + format);
+    if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
+        throw InvalidInput("OpenCASCADE cannot parse the " + format +
+                           " file; it is malformed — open it in the system that wrote it and export again");
+    progress.report(0.2, "translating " + format);
+    const Handle(TDocStd_Document) document = new TDocStd_Document("MDTV-XCAF");
+    {
+        Handle(TDocStd_Document) target = document;
+        reader.Transfer(target, KernelProgress(progress.part(0.2, 0.9), "translating " + format).start());
+    }
+    progress.report(0.9, "translating " + format);
+    return document;
+}
+
 ShapeFile read_step(const std::string& path, const Progress& progress) {
     STEPCAFControl_Reader reader;
     // Names of faces stand on sub-shapes.
     Interface_Static::SetIVal("read.stepcaf.subshapes.name", 1);
     reader.SetGDTMode(Standard_False);
     reader.SetViewMode(Standard_False);
-    progress.report(0.0, "parsing STEP");
-    if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
-        throw InvalidInput(
-            "OpenCASCADE cannot parse the STEP file; it is malformed — open it in the system that wrote "
-            "it and export again");
-    progress.report(0.2, "translating STEP");
-    const Handle(TDocStd_Document) document = new TDocStd_Document("MDTV-XCAF");
-    {
-        Handle(TDocStd_Document) target = document;
-        reader.Transfer(target, KernelProgress(progress.part(0.2, 0.9), "translating STEP").start());
-    }
-    progress.report(0.9, "translating STEP");
+    const Handle(TDocStd_Document) document = translated(reader, "STEP", path, progress);
     ShapeFile result;
     result.format = "STEP";
     result.shape = reader.ChangeReader().OneShape();
@@ -132,18 +139,7 @@ ShapeFile read_step(const std::string& path, const Progress& progress) {
 ShapeFile read_iges(const std::string& path, const Progress& progress) {
     IGESCAFControl_Reader reader;
     reader.SetReadVisible(Standard_True);
-    progress.report(0.0, "parsing IGES");
-    if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
-        throw InvalidInput(
-            "OpenCASCADE cannot parse the IGES file; it is malformed — open it in the system that wrote "
-            "it and export again");
-    progress.report(0.2, "translating IGES");
-    const Handle(TDocStd_Document) document = new TDocStd_Document("MDTV-XCAF");
-    {
-        Handle(TDocStd_Document) target = document;
-        reader.Transfer(target, KernelProgress(progress.part(0.2, 0.9), "translating IGES").start());
-    }
-    progress.report(0.9, "translating IGES");
+    const Handle(TDocStd_Document) document = translated(reader, "IGES", path, progress);
     ShapeFile result;
     result.format = "IGES";
     result.shape = reader.OneShape();

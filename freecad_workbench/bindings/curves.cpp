@@ -43,18 +43,6 @@ SurfacePoint point_of(const Face& face, const Vector2& native) {
     return {face.number, at.x(), at.y()};
 }
 
-/// Joins to other faces, unless the curve shall stay on one.
-class Joins {
-public:
-    Joins(const Model& model, bool one_face) {
-        if (!one_face && model.faces.size() > 1) joined_.emplace(model);
-    }
-    const SmoothJoins* get() const { return joined_ ? &joined_->joins : nullptr; }
-
-private:
-    std::optional<JoinedFaces> joined_;
-};
-
 std::string lines_of_curvature(const LoadedModel& loaded, std::optional<int> face_number, const Vector2& start,
                                const std::string& family, std::optional<double> length, double spacing,
                                std::optional<double> tolerance, const py::object& progress) {
@@ -79,7 +67,7 @@ std::string geodesics(const LoadedModel& loaded, std::optional<int> face_number,
     return run_interruptible(progress, [&](const Progress& handle) {
         const Model& model = loaded.file.model;
         const Face& face = chosen_face(model, face_number);
-        const Joins joined(model, one_face);
+        const OptionalJoins joined(model, one_face);
         CurveResult result{.kind = "geodesic", .model = &model};
         if (direction) {
             GeodesicOptions options{.spacing = spacing, .joins = joined.get()};
@@ -113,7 +101,7 @@ std::string project_points(const std::vector<std::vector<Vector3>>& curves, cons
     return run_interruptible(progress, [&](const Progress& handle) {
         const Model& model = onto.file.model;
         const Face& target = chosen_face(model, onto_face);
-        const Joins joined(model, one_face);
+        const OptionalJoins joined(model, one_face);
         ProjectionOptions options = projection_options(target, foot, spacing, tolerance);
         options.joins = joined.get();
         CurveResult result{.kind = "project", .model = &model};
@@ -133,7 +121,7 @@ std::string project_started(const LoadedModel& from, std::optional<int> face_num
     return run_interruptible(progress, [&](const Progress& handle) {
         const Face& face = chosen_face(from.file.model, face_number);
         const Face& target = chosen_face(onto.file.model, onto_face);
-        const Joins joined(onto.file.model, one_face), own(from.file.model, one_face);
+        const OptionalJoins joined(onto.file.model, one_face), own(from.file.model, one_face);
         ProjectionOptions options = projection_options(target, foot, spacing, tolerance);
         options.joins = joined.get();
         options.original_joins = own.get();

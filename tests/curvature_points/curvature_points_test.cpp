@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include <support/reparametrisation.h>
 #include <support/surfaces.h>
+#include <umbilic/core/disjoint_sets.h>
 #include <umbilic/core/errors.h>
 #include <umbilic/curvature_points/curvature_gradient.h>
 #include <umbilic/curvature_points/curvature_points.h>
@@ -117,6 +120,48 @@ TEST(CurvaturePoints, ManyQueriesGiveWhatEachGives) {
     }
 }
 
+/// Second method: neighbours on a fine grid, both within the tolerances, lie in one part, and grid points that not even
+/// four times the tolerances join lie in different ones.
+void expect_parts_told_apart(const NurbsSurface& surface, const CurvatureQuery& query, const CurvaturePoints& found) {
+    const int n = 250, count = (n + 1) * (n + 1);
+    for (const bool opposite : {false, true}) {
+        const double mean = opposite ? -query.mean : query.mean;
+        std::vector<double> misfit(count);
+        for (int k = 0; k < count; ++k) {
+            const Curvature c = curvature(surface, double(k / (n + 1)) / n, double(k % (n + 1)) / n);
+            misfit[k] = std::max(std::abs(c.gaussian() - query.gaussian) / query.gaussian_tolerance,
+                                 std::abs(c.mean() - mean) / query.mean_tolerance);
+        }
+        DisjointSets near(count), wide(count);
+        for (int i = 0; i <= n; ++i)
+            for (int j = 0; j <= n; ++j)
+                for (const auto& [di, dj] : {std::pair(1, 0), std::pair(0, 1), std::pair(1, 1), std::pair(1, -1)}) {
+                    if (i + di > n || j + dj > n || j + dj < 0) continue;
+                    const int a = i * (n + 1) + j, b = a + di * (n + 1) + dj;
+                    if (di * dj == 0 && std::max(misfit[a], misfit[b]) <= 1.0) near.unite(a, b);
+                    if (std::max(misfit[a], misfit[b]) <= 4.0) wide.unite(a, b);
+                }
+        std::map<std::size_t, ParameterBox> together;
+        std::set<std::size_t> apart;
+        for (int k = 0; k < count; ++k) {
+            if (misfit[k] > 1.0) continue;
+            apart.insert(wide.find(k));
+            const double u = double(k / (n + 1)) / n, v = double(k % (n + 1)) / n;
+            ParameterBox& box = together.try_emplace(near.find(k), ParameterBox{{u, u}, {v, v}}).first->second;
+            box.u = {std::min(box.u.low, u), std::max(box.u.high, u)};
+            box.v = {std::min(box.v.low, v), std::max(box.v.high, v)};
+        }
+        for (const auto& [set, box] : together)
+            EXPECT_TRUE(std::any_of(found.points.begin(), found.points.end(), [&](const CurvaturePoint& point) {
+                return point.opposite == opposite && point.extent.contains(box.u.low, box.v.low) &&
+                       point.extent.contains(box.u.high, box.v.high);
+            }));
+        EXPECT_GE(std::count_if(found.points.begin(), found.points.end(),
+                                [&](const CurvaturePoint& point) { return point.opposite == opposite; }),
+                  static_cast<long>(apart.size()));
+    }
+}
+
 /// Second method: points of a fine grid within the tolerances lie in a part.
 void expect_all_within_tolerances(const NurbsSurface& surface) {
     const double u = 0.37, v = 0.61;
@@ -143,6 +188,7 @@ void expect_all_within_tolerances(const NurbsSurface& surface) {
                     })) << share;
                 }
             }
+        expect_parts_told_apart(surface, query, found);
         for (const CurvaturePoint& point : found.points) {
             const double mean = point.opposite ? -query.mean : query.mean;
             // Boxes are accepted whose ranges are below twice the tolerances.

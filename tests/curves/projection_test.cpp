@@ -53,33 +53,6 @@ void expect_orthogonal(const ProjectedCurve& curve, const Face& onto, double tol
     EXPECT_LE(curve.projection.error, tolerance);
 }
 
-TEST(Projection, OfAPointIsTheRadialOneOnASphere) {
-    const NurbsSurface sphere = support::full_sphere(2.0);
-    for (const double distance : {0.5, 1.9, 2.0, 5.0}) {
-        const Vector3 direction = sphere.value(0.7, 1.2).normalized();
-        const std::optional<Vector2> foot = foot_point(sphere, distance * direction, {0.75, 1.1});
-        ASSERT_TRUE(foot.has_value());
-        EXPECT_LE((sphere.value(foot->x(), foot->y()) - 2 * direction).norm(), 1e-12);
-    }
-    // The foot beyond the border of a patch is none of the patch.
-    EXPECT_FALSE(foot_point(support::smooth_bicubic(4, 1), Vector3(3, 3, 0), {0.9, 0.9}).has_value());
-    EXPECT_THROW(foot_point(sphere, Vector3(not_a_number, 0, 0), {0.5, 0.5}), InvalidInput);
-}
-
-TEST(Projection, FeetOfAPointAreAllFound) {
-    const Model torus = support::model_of({support::full_torus(3.0, 1.0)});
-    // A point in the plane y = x has its feet on both circles that the plane cuts out: two on each.
-    const Vector3 point(2.5, 2.5, 0.4);
-    const std::vector<StationaryPoint> all = feet(torus.faces[0], point);
-    ASSERT_EQ(all.size(), 4u);
-    const double r = std::hypot(2.5, 2.5);
-    const double near = std::hypot(r - 3, 0.4), far = std::hypot(r + 3, 0.4);
-    EXPECT_NEAR(all[0].distance, std::abs(near - 1), 1e-9);
-    EXPECT_NEAR(all[1].distance, near + 1, 1e-9);
-    EXPECT_NEAR(all[2].distance, far - 1, 1e-9);
-    EXPECT_NEAR(all[3].distance, far + 1, 1e-9);
-}
-
 TEST(Projection, OfASpaceCurveOntoASphereIsRadialOnBothSides) {
     const Model model = sphere_model(2.0);
     // A helix about a tilted axis that passes from inside to outside of the sphere: rho changes its sign (T 15).

@@ -4,16 +4,9 @@
 #include <algorithm>
 #include <numeric>
 
+#include <umbilic/core/disjoint_sets.h>
+
 namespace umbilic {
-
-namespace {
-
-int root_of(std::vector<int>& parent, int k) {
-    while (parent[k] != k) k = parent[k] = parent[parent[k]];
-    return k;
-}
-
-}  // namespace
 
 BoxClusters cluster_boxes(std::span<const Interval> boxes, int dimension, double gap) {
     const int count = static_cast<int>(boxes.size()) / dimension;
@@ -36,9 +29,9 @@ BoxClusters cluster_boxes(std::span<const Interval> boxes, int dimension, double
             along = k;
         }
     }
-    std::vector<int> order(count), parent(count);
+    std::vector<int> order(count);
+    DisjointSets sets(count);
     std::iota(order.begin(), order.end(), 0);
-    std::iota(parent.begin(), parent.end(), 0);
     std::sort(order.begin(), order.end(), [&](int a, int b) {
         return side(a, along).low != side(b, along).low ? side(a, along).low < side(b, along).low : a < b;
     });
@@ -49,7 +42,7 @@ BoxClusters cluster_boxes(std::span<const Interval> boxes, int dimension, double
             bool touch = true;
             for (int k = 0; k < dimension && touch; ++k)
                 touch = side(other, k).low <= side(box, k).high + gap && side(box, k).low <= side(other, k).high + gap;
-            if (touch) parent[root_of(parent, other)] = root_of(parent, box);
+            if (touch) sets.unite(other, box);
         }
         active.push_back(box);
     }
@@ -57,7 +50,7 @@ BoxClusters cluster_boxes(std::span<const Interval> boxes, int dimension, double
     BoxClusters result;
     std::vector<int> number(count, -1);
     for (int box = 0; box < count; ++box) {
-        int& of_root = number[root_of(parent, box)];
+        int& of_root = number[sets.find(box)];
         if (of_root < 0) of_root = result.count++;
         result.cluster.push_back(of_root);
     }

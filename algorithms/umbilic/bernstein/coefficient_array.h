@@ -10,11 +10,16 @@
 namespace umbilic {
 
 // What searches ask of one array of Bernstein coefficients on [0, 1]^2, in floating point without bounds on rounding.
-// Inline, as it is asked of every box.
+
+/// Range of `count` > 0 coefficients, between which the values lie.
+Interval coefficient_range(const double* coefficients, int count);
 
 /// Ranges of the differences of neighbouring coefficients along u and along v: the derivatives lie in them times the
 /// degree. 0 along a direction of degree 0.
 std::array<Interval, 2> difference_hulls(CoefficientShape shape, const double* coefficients);
+
+/// Range of the coefficients less those of the linear polynomial slope . (u, v).
+Interval range_beside(CoefficientShape shape, const double* coefficients, const Vector2& slope);
 
 /// Mean derivatives over [0, 1]^2.
 Vector2 mean_derivative(CoefficientShape shape, const double* coefficients);
@@ -34,21 +39,6 @@ private:
     CoefficientShape shape_;
     std::vector<double> basis_;  ///< along u, its derivatives, along v, its derivatives
 };
-
-inline std::array<Interval, 2> difference_hulls(CoefficientShape shape, const double* c) {
-    std::array<Interval, 2> result{};
-    const int length = shape.row_length();
-    if (shape.p > 0) {
-        const Eigen::Map<const Eigen::ArrayXd> low(c, shape.p * length), high(c + length, shape.p * length);
-        result[0] = {(high - low).minCoeff(), (high - low).maxCoeff()};
-    }
-    for (int i = 0; shape.q > 0 && i <= shape.p; ++i) {
-        const Eigen::Map<const Eigen::ArrayXd> left(c + i * length, shape.q), right(c + i * length + 1, shape.q);
-        const Interval row((right - left).minCoeff(), (right - left).maxCoeff());
-        result[1] = i == 0 ? row : hull(result[1], row);
-    }
-    return result;
-}
 
 inline Vector2 mean_derivative(CoefficientShape shape, const double* c) {
     const Eigen::Map<const Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> rows(

@@ -13,29 +13,44 @@ namespace umbilic {
 
 namespace {
 
-/// result row += factor * row, the inner loop of every product.
-inline void add_multiple(double* result, const double* row, double factor, int length) {
-    for (int j = 0; j < length; ++j) result[j] += factor * row[j];
-}
-
 /// Row-major coefficients with their degrees.
 struct Rows {
     int u_degree, row_length;
     const double* data;
 };
 
+/// result[n] += sum_j factor[j] values[n - j] for n < length, the inner loop of every product: so many factors at once
+/// as values are held that have been loaded anyway.
+template <int count>
+void add_multiples(const double* factor, const double* values, int length, double* result) {
+    for (int n = 0; n < length; ++n) {
+        double sum = result[n];
+        for (int j = 0; j < count; ++j) sum += factor[j] * values[n - j];
+        result[n] = sum;
+    }
+}
+
 void add_product(Rows a, Rows b, double sign, double* result) {
+    constexpr int at_once = 4;
     const int stride = a.row_length + b.row_length - 1;
     const Rows &short_rows = a.row_length < b.row_length ? a : b, &long_rows = a.row_length < b.row_length ? b : a;
+    // With the rows of one factor as far apart as those of the result, and zeros between them, all of them are one.
+    const int length = long_rows.u_degree * stride + long_rows.row_length;
+    std::vector<double> spread(at_once - 1 + length + at_once - 1, 0.0);
+    double* const values = spread.data() + at_once - 1;
+    for (int k = 0; k <= long_rows.u_degree; ++k)
+        std::copy_n(long_rows.data + k * long_rows.row_length, long_rows.row_length, values + k * stride);
     const double* next = short_rows.data;
-    for (int i = 0; i <= short_rows.u_degree; ++i)
-        for (int j = 0; j < short_rows.row_length; ++j) {
-            const double factor = sign * *next++;
-            if (factor == 0.0) continue;
-            double* target = result + i * stride + j;
-            for (int k = 0; k <= long_rows.u_degree; ++k)
-                add_multiple(target + k * stride, long_rows.data + k * long_rows.row_length, factor,
-                             long_rows.row_length);
+    for (int i = 0; i <= short_rows.u_degree; ++i, next += short_rows.row_length)
+        for (int j = 0; j < short_rows.row_length; j += at_once) {
+            double factor[at_once];
+            const int count = std::min(at_once, short_rows.row_length - j);
+            for (int k = 0; k < count; ++k) factor[k] = sign * next[j + k];
+            double* const target = result + i * stride + j;
+            if (count == 4) add_multiples<4>(factor, values, length + 3, target);
+            if (count == 3) add_multiples<3>(factor, values, length + 2, target);
+            if (count == 2) add_multiples<2>(factor, values, length + 1, target);
+            if (count == 1) add_multiples<1>(factor, values, length, target);
         }
 }
 

@@ -2,16 +2,13 @@
 #include <umbilic/curvature_points/by_projected_polyhedron.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <tuple>
 
-#include <tbb/parallel_for.h>
-
-#include <umbilic/bernstein/projected_polyhedron.h>
 #include <umbilic/core/errors.h>
 #include <umbilic/nurbs/bezier_patch.h>
 #include <umbilic/umbilics/equations.h>
+#include <umbilic/umbilics/patch_systems.h>
 
 namespace umbilic {
 
@@ -78,33 +75,24 @@ struct PatchRoots {
 ProjectedPolyhedronCurvaturePoints find_curvature_points_by_projected_polyhedron(
     const NurbsSurface& surface, const CurvatureQuery& query, const ProjectedPolyhedronCurvatureOptions& options,
     const Progress& progress) {
-    if (!(options.tolerance >= 1e-14 && options.tolerance < 1.0))
-        throw InvalidInput("curvatures by projected polyhedron: the tolerance must lie between 1e-14 and 1");
-    if (options.boxes_per_patch < 1)
-        throw InvalidInput("curvatures by projected polyhedron: boxes_per_patch must be at least 1");
+    const ProjectedPolyhedronOptions limits =
+        patch_limits("curvatures by projected polyhedron", options.tolerance, options.boxes_per_patch);
     if (query.gaussian_tolerance != 0.0 || query.mean_tolerance != 0.0)
         throw InvalidInput("curvatures by projected polyhedron: the query must not have tolerances");
     const BezierPatches patches = bezier_patches(surface);
     const InputRounding input = input_rounding(surface);
-    ProjectedPolyhedronOptions limits;
-    limits.tolerance = options.tolerance;
-    limits.boxes = options.boxes_per_patch;
     const bool squared = options.system == CurvatureSystem::squared;
-    std::vector<PatchRoots> found(patches.patches.size());
-    std::atomic<std::size_t> done{0};
-    tbb::parallel_for(std::size_t(0), found.size(), [&](std::size_t k) {
-        const auto fraction = [&] { return static_cast<double>(done) / static_cast<double>(found.size()); };
-        const Progress within = progress.part(fraction(), fraction());
-        within.check();
+    const auto solve = [&](std::size_t k, const Progress& within) {
+        PatchRoots result;
         const PatchSystem system(patches.patches[k], input, query);
         for (const bool opposite : {false, true}) {
             if (opposite && (squared || query.mean == 0.0)) continue;
             const auto equations = squared ? system.squared() : system.auxiliary(opposite);
-            if (!equations.empty()) found[k].roots[opposite] = solve_projected_polyhedron(equations, limits, within);
+            if (!equations.empty()) result.roots[opposite] = solve_projected_polyhedron(equations, limits, within);
         }
-        ++done;
-        progress.report(fraction(), "points of given curvature");
-    });
+        return result;
+    };
+    const auto found = on_patches<PatchRoots>(patches.patches.size(), "points of given curvature", progress, solve);
 
     ProjectedPolyhedronCurvaturePoints result;
     for (std::size_t k = 0; k < found.size(); ++k) {

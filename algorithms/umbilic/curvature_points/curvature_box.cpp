@@ -23,6 +23,8 @@ constexpr int newton_steps = 12;
 /// A box that meets the region within the tolerances counts as part of it if K and H vary by less than this over it, in
 /// units of the tolerances: so it reaches out of the region by as much at most.
 constexpr double widest_range = 3.0;
+/// On a convex part of a box that is taken for a part of that region K and H are within so many tolerances.
+constexpr double widest_part = 2.0;
 /// Part of the tolerances that a change of the arrays may use up.
 constexpr double small_blur = 0.05;
 /// Roundings in the constants and weights of a linearisation, in units of roundoff of its largest term.
@@ -31,19 +33,18 @@ constexpr double linearisation_units = 32 * unit_roundoff;
 }  // namespace
 
 void CurvatureBox::take(CoefficientShape shape, bool rational, const double* coefficients,
-                        const std::array<double, most_arrays>& errors) {
+                        const std::array<double, most_arrays>& errors, CoefficientShape error_shape) {
     shape_ = shape;
+    error_shape_ = error_shape;
     rational_ = rational;
     arrays_ = rational ? 4 : 3;
     coefficients_ = coefficients;
     errors_ = errors;
     combined_for_.reset();
     for (int k = 0; k < arrays_; ++k) {
-        const Values values(array(k), shape_.size());
-        const double low = values.minCoeff(), high = values.maxCoeff();
-        magnitude_[k] = std::max(std::abs(low), std::abs(high));
-        range_[k] = inflated({low, high}, errors_[k]);
-        mean_slope_[k] = mean_derivative(shape_, array(k));
+        const Interval values = coefficient_range(array(k), shape_.size());
+        magnitude_[k] = values.magnitude();
+        range_[k] = inflated(values, errors_[k]);
         slope_[k].reset();
     }
     // t is a square.
@@ -58,8 +59,9 @@ void CurvatureBox::take(CoefficientShape shape, bool rational, const double* coe
 
 Vector2 CurvatureBox::largest_slope(int k) const {
     const std::array<Interval, 2> d = difference_hulls(shape_, array(k));
-    const double error = 2 * errors_[k] + 4 * unit_roundoff * magnitude_[k];
-    return {shape_.p * (d[0].magnitude() + error), shape_.q * (d[1].magnitude() + error)};
+    const double rounding = 4 * unit_roundoff * magnitude_[k];
+    return Vector2(shape_.p * (d[0].magnitude() + rounding), shape_.q * (d[1].magnitude() + rounding)) +
+           slope_error(errors_[k]);
 }
 
 void CurvatureBox::linearise_integral(const CurvatureLevel& level) {
@@ -153,9 +155,9 @@ void CurvatureBox::combine(const CurvatureLevel& level) {
             terms += std::abs(weight[a]) * magnitude_[a];
         }
         error_[k] = (error_[k] + linearisation_units * terms) * bound_slack;
-        const double low = f.minCoeff(), high = f.maxCoeff();
-        size_[k] = std::max(std::abs(low), std::abs(high));
-        hull_[k] = {low + constant_[k], high + constant_[k]};
+        const Interval values = coefficient_range(f.data(), count);
+        size_[k] = values.magnitude();
+        hull_[k] = {values.low + constant_[k], values.high + constant_[k]};
     }
 }
 
@@ -172,6 +174,27 @@ bool CurvatureBox::within(const CurvatureLevel& level) const {
     if (hull_[0].magnitude() + k_rest <= k_room && hull_[1].magnitude() + h_rest <= h_room) return true;
     return hull_[0].high - hull_[0].low + 2 * k_rest <= widest_range * k_room &&
            hull_[1].high - hull_[1].low + 2 * h_rest <= widest_range * h_room;
+}
+
+std::optional<std::array<LinearBand, 2>> CurvatureBox::bands(const CurvatureLevel& level) const {
+    const double least[2] = {level.gaussian_tolerance * g_.low, 2 * level.mean_tolerance * h_.low};
+    const double most[2] = {level.gaussian_tolerance * g_.high, 2 * level.mean_tolerance * h_.high};
+    std::array<LinearBand, 2> result;
+    for (int k = 0; k < 2; ++k) {
+        // Bound on f_k less its linear part, before the coefficients' own distance from that.
+        double rest = own_remainder_[k] + error_[k];
+        if (!(most[k] + 2 * rest <= widest_part * least[k])) return std::nullopt;
+        const double* f = combined_.data() + k * shape_.size();
+        const Vector2 slope = mean_derivative(shape_, f);
+        const Interval beside = range_beside(shape_, f, slope);
+        const double size = size_[k] + std::abs(constant_[k]) + slope.lpNorm<1>();
+        rest = (rest + 0.5 * (beside.high - beside.low) + linearisation_units * size) * bound_slack;
+        const bool everywhere = hull_[k].magnitude() + own_remainder_[k] * bound_slack + error_[k] <= least[k];
+        if (!everywhere && !(most[k] + 2 * rest <= widest_part * least[k])) return std::nullopt;
+        result[k] = {slope, constant_[k] + beside.middle(),
+                     everywhere ? std::numeric_limits<double>::infinity() : most[k] + rest};
+    }
+    return result;
 }
 
 bool CurvatureBox::tolerates(const CurvatureLevel& level, const std::array<double, most_arrays>& errors) const {
@@ -196,9 +219,8 @@ Vector2 CurvatureBox::allowance(const CurvatureLevel& level, const Matrix2& y) c
 }
 
 std::optional<Matrix2> CurvatureBox::preconditioner() const {
-    Matrix2 mean = Matrix2::Zero();
-    for (int k = 0; k < 2; ++k)
-        for (int a = 0; a < arrays_; ++a) mean.row(k) += weight_[k][a] * mean_slope_[a].transpose();
+    Matrix2 mean;
+    for (int k = 0; k < 2; ++k) mean.row(k) = mean_derivative(shape_, combined_.data() + k * shape_.size()).transpose();
     const double rows = mean.row(0).lpNorm<1>() * mean.row(1).lpNorm<1>();
     if (!(std::abs(mean.determinant()) > least_relative_determinant * rows)) return std::nullopt;
     return mean.inverse();
@@ -208,7 +230,7 @@ std::optional<double> CurvatureBox::contraction(const Matrix2& y) {
     const int count = shape_.size();
     preconditioned_.resize(2 * count);
     const Values f1(combined_.data(), count), f2(combined_.data() + count, count);
-    double errors[2];
+    double errors[2], sizes[2];
     for (int k = 0; k < 2; ++k) {
         Eigen::Map<Eigen::ArrayXd> g(preconditioned_.data() + k * count, count);
         const double y0 = std::abs(y(k, 0)), y1 = std::abs(y(k, 1));
@@ -217,28 +239,35 @@ std::optional<double> CurvatureBox::contraction(const Matrix2& y) {
             (y0 * (error_[0] + 3 * unit_roundoff * size_[0]) + y1 * (error_[1] + 3 * unit_roundoff * size_[1])) *
             bound_slack;
         const double constant = y(k, 0) * constant_[0] + y(k, 1) * constant_[1];
-        const Interval values{g.minCoeff() + constant, g.maxCoeff() + constant};
+        const Interval range = coefficient_range(g.data(), count);
+        sizes[k] = range.magnitude();
+        const Interval values{range.low + constant, range.high + constant};
         const double rest = errors[k] + (y0 * (remainder_[0] + 4 * unit_roundoff * std::abs(constant_[0])) +
                                          y1 * (remainder_[1] + 4 * unit_roundoff * std::abs(constant_[1]))) *
                                             bound_slack;
         if (values.mignitude() > rest) return std::nullopt;
     }
+    const auto row_sum = [](int k, const Interval& u, const Interval& v) {
+        return k == 0 ? (Interval(1.0) - u).magnitude() + v.magnitude()
+                      : u.magnitude() + (Interval(1.0) - v).magnitude();
+    };
+    std::array<std::array<Interval, 2>, 2> slopes;
+    for (int k = 0; k < 2; ++k) {
+        const std::array<Interval, 2> d = difference_hulls(shape_, preconditioned_.data() + k * count);
+        slopes[k] = {Interval(shape_.p) * d[0], Interval(shape_.q) * d[1]};
+        // Nothing contracts already without the remainders: most boxes end here.
+        if (!(row_sum(k, slopes[k][0], slopes[k][1]) < 1.0)) return std::numeric_limits<double>::infinity();
+    }
     for (int a = t; a < arrays_; ++a)
         if (!slope_[a]) slope_[a] = largest_slope(a);
     double norm = 0.0;
     for (int k = 0; k < 2; ++k) {
-        const double* g = preconditioned_.data() + k * count;
-        const double size = Values(g, count).abs().maxCoeff();
-        const double difference_error = (2 * errors[k] + 4 * unit_roundoff * size) * bound_slack;
-        Vector2 slack = Vector2(shape_.p, shape_.q) * difference_error;
+        Vector2 slack =
+            (slope_error(errors[k]) + 4 * unit_roundoff * sizes[k] * Vector2(shape_.p, shape_.q)) * bound_slack;
         for (int f = 0; f < 2; ++f)
             for (int a = t; a < arrays_; ++a) slack += std::abs(y(k, f)) * slack_[f][a] * *slope_[a];
         slack *= bound_slack;
-        const std::array<Interval, 2> d = difference_hulls(shape_, g);
-        const Interval u = inflated(Interval(shape_.p) * d[0], slack.x());
-        const Interval v = inflated(Interval(shape_.q) * d[1], slack.y());
-        const double sum =
-            k == 0 ? (Interval(1.0) - u).magnitude() + v.magnitude() : u.magnitude() + (Interval(1.0) - v).magnitude();
+        const double sum = row_sum(k, inflated(slopes[k][0], slack.x()), inflated(slopes[k][1], slack.y()));
         if (!std::isfinite(sum)) return std::numeric_limits<double>::infinity();
         norm = std::max(norm, sum * bound_slack);
     }

@@ -10,6 +10,7 @@
 #include <umbilic/bernstein/interval.h>
 #include <umbilic/bernstein/subdivision.h>
 #include <umbilic/core/types.h>
+#include <umbilic/curvature_points/box_part.h>
 
 namespace umbilic {
 
@@ -31,10 +32,11 @@ class CurvatureBox {
 public:
     static constexpr int most_arrays = 4;
 
-    /// Takes a box: `coefficients` holds the arrays of q, s, t (and w), one after the other, whose entries are known up
-    /// to `errors`. Keeps a pointer to them.
+    /// Takes a box: `coefficients` holds the arrays of q, s, t (and w), one after the other. The polynomials meant are
+    /// those plus ones whose coefficients of degree `error_shape`, at least `shape`, are below `errors`. Keeps a
+    /// pointer to the coefficients.
     void take(CoefficientShape shape, bool rational, const double* coefficients,
-              const std::array<double, most_arrays>& errors);
+              const std::array<double, most_arrays>& errors, CoefficientShape error_shape);
 
     /// Forms the two combinations. False if a level's value cannot lie on the box: 0 is not in the hull of one of them,
     /// tolerances included.
@@ -43,6 +45,9 @@ public:
     bool vanishes() const;
     /// After linearise(): the box lies wholly within the tolerances, or the ranges of K and H are below twice them.
     bool within(const CurvatureLevel& level) const;
+    /// After linearise(): if K and H are nearly linear on the box, bands in which its points within the tolerances lie,
+    /// and in both of which K and H are within twice the tolerances. Coordinates run from 0 to 1 over the box.
+    std::optional<std::array<LinearBand, 2>> bands(const CurvatureLevel& level) const;
     /// After linearise(): further errors of the arrays would blur K and H by a small part of the tolerances only.
     bool tolerates(const CurvatureLevel& level, const std::array<double, most_arrays>& errors) const;
     /// After linearise(): see LevelBox::misfit.
@@ -50,7 +55,8 @@ public:
 
     /// After linearise(): the inverse of the mean derivative; none if it is nearly singular.
     std::optional<Matrix2> preconditioner() const;
-    /// After linearise(): row-sum norm of I - (Y f)' over the box; none if a component of Y f has no zero.
+    /// After linearise(): row-sum norm of I - (Y f)' over the box, infinity if that is above 1 anyway; none if a
+    /// component of Y f has no zero.
     std::optional<double> contraction(const Matrix2& preconditioner);
 
     /// Y f at a point of [0, 1]^2, without linearisation.
@@ -76,13 +82,15 @@ private:
     void evaluate(const Vector2& at, std::array<double, most_arrays>& value,
                   std::array<Vector2, most_arrays>* gradient);
 
-    CoefficientShape shape_;
+    /// Bounds on the derivatives of a polynomial whose coefficients of degree error_shape_ are below `error`.
+    Vector2 slope_error(double error) const { return 2.0 * error * Vector2(error_shape_.p, error_shape_.q); }
+
+    CoefficientShape shape_, error_shape_;
     bool rational_ = false;
     int arrays_ = 0;
     const double* coefficients_ = nullptr;
     std::array<double, most_arrays> errors_{}, magnitude_{};
     std::array<Interval, most_arrays> range_{};
-    std::array<Vector2, most_arrays> mean_slope_;
     /// Bounds on |derivatives| of t and w, told when first needed.
     std::array<std::optional<Vector2>, most_arrays> slope_;
     Interval g_, h_;

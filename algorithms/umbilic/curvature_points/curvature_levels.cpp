@@ -61,7 +61,7 @@ void CurvatureLevelSearch::set_equations(const CurvatureEquations& equations) {
     const TensorPolynomial* source[] = {&equations.q, &equations.s, &equations.t, &equations.w};
     rational_ = equations.rational;
     arrays_ = rational_ ? 4 : 3;
-    shape_ = {equations.q.u_degree, equations.q.v_degree};
+    shape_ = error_shape_ = {equations.q.u_degree, equations.q.v_degree};
     const std::size_t size = shape_.size();
     root_.resize(arrays_ * size);
     for (int k = 0; k < arrays_; ++k) {
@@ -100,7 +100,7 @@ long CurvatureLevelSearch::run(std::span<const CurvatureLevel> levels, const Lev
         if (++visited % boxes_per_check == 0) progress.check();
         Node& node = nodes_[top];
         double* slot = slots_.data() + top * stride;
-        box_.take(shape_, rational_, slot, node.errors);
+        box_.take(shape_, rational_, slot, node.errors, error_shape_);
         const double u_share = node.box.u.length() / limits.u_size, v_share = node.box.v.length() / limits.v_size;
         const bool fine = u_share <= 1.0 && v_share <= 1.0;
         const auto own = std::span(live_).subspan(node.first_live, node.live);
@@ -183,6 +183,7 @@ bool CurvatureLevelSearch::reduce(const Node& node, const double* coefficients) 
     if (!fits) reduction_.emplace(shape_, low);
     if (!lower_) lower_ = std::make_unique<CurvatureLevelSearch>();
     lower_->shape_ = low;
+    lower_->error_shape_ = error_shape_;
     lower_->arrays_ = arrays_;
     lower_->rational_ = rational_;
     const std::size_t size = low.size(), needed = arrays_ * size;
@@ -193,7 +194,7 @@ bool CurvatureLevelSearch::reduce(const Node& node, const double* coefficients) 
 }
 
 void CurvatureLevelSearch::leave(const Node& node, int number, LevelSets& result) const {
-    result.boxes.push_back({number, node.box, std::numeric_limits<double>::infinity()});
+    result.boxes.push_back({number, {node.box, {}}, std::numeric_limits<double>::infinity()});
 }
 
 CurvatureLevelSearch::Outcome CurvatureLevelSearch::examine(const Node& node, const CurvatureLevel& level, int number,
@@ -212,7 +213,12 @@ CurvatureLevelSearch::Outcome CurvatureLevelSearch::examine(const Node& node, co
 CurvatureLevelSearch::Outcome CurvatureLevelSearch::examine_region(const Node& node, const CurvatureLevel& level,
                                                                    int number, LevelSets& result) {
     if (box_.within(level)) {
-        result.boxes.push_back({number, node.box, box_.misfit(level)});
+        result.boxes.push_back({number, {node.box, {}}, box_.misfit(level)});
+        return Outcome::empty;
+    }
+    if (const auto bands = box_.bands(level)) {
+        std::optional<BoxPart> part = part_within(node.box, *bands);
+        if (part) result.boxes.push_back({number, std::move(*part), box_.misfit(level)});
         return Outcome::empty;
     }
     const std::optional<Matrix2> preconditioner = box_.preconditioner();
@@ -244,7 +250,8 @@ CurvatureLevelSearch::Outcome CurvatureLevelSearch::examine_region(const Node& n
     }
     const Vector2 side(node.box.u.length(), node.box.v.length()), corner(node.box.u.low, node.box.v.low);
     const Vector2 from = corner + side.cwiseProduct(low), to = corner + side.cwiseProduct(high);
-    result.boxes.push_back({number, {{from.x(), to.x()}, {from.y(), to.y()}}, holds_solution ? 0.0 : 1.0});
+    const BoxPart part{{{from.x(), to.x()}, {from.y(), to.y()}}, {}};
+    result.boxes.push_back({number, part, holds_solution ? 0.0 : 1.0});
     return Outcome::empty;
 }
 
@@ -258,7 +265,7 @@ void CurvatureLevelSearch::take_other(const Node& node, const Vector2& low, cons
         const double factor = restrict_u(shape_, c, low.x(), high.x()) * restrict_v(shape_, c, low.y(), high.y());
         errors[k] = factor * (errors[k] + gamma_bound(8 * (shape_.p + shape_.q)) * box_.magnitudes()[k]) * bound_slack;
     }
-    other_box_.take(shape_, rational_, other_.data(), errors);
+    other_box_.take(shape_, rational_, other_.data(), errors, error_shape_);
 }
 
 std::optional<bool> CurvatureLevelSearch::restricted_within(const CurvatureLevel& level, const Node& node,

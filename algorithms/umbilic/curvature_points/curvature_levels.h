@@ -24,11 +24,11 @@ struct LevelPoint {
     ParameterBox box;                  ///< may reach out of [0, 1]^2, to which the surface continues
 };
 
-/// A box that was neither excluded nor proved (tolerances 0), or that holds a part of the region within the tolerances:
-/// all of that region lies in such boxes.
+/// A box that was neither excluded nor proved (tolerances 0), or the part of a box that holds a part of the region
+/// within the tolerances: all of that region lies in such parts.
 struct LevelBox {
     int level = 0;
-    ParameterBox box;
+    BoxPart part;
     /// Greater distance of K or H from the level at the middle of their ranges, in units of the tolerance; infinity
     /// where the ranges could not be told.
     double misfit = 0.0;
@@ -91,6 +91,7 @@ private:
     void leave(const Node& node, int number, LevelSets& result) const;
 
     CoefficientShape shape_;
+    CoefficientShape error_shape_;  ///< degrees of the equations, of which those searched may be reductions
     int arrays_ = 0;
     bool rational_ = false;
     std::vector<double> root_, slots_, other_;

@@ -14,6 +14,7 @@
 #include <tbb/parallel_for.h>
 
 #include <umbilic/bernstein/box_clusters.h>
+#include <umbilic/core/disjoint_sets.h>
 #include <umbilic/core/errors.h>
 #include <umbilic/curvature_points/curvature_gradient.h>
 #include <umbilic/curvature_points/curvature_levels.h>
@@ -39,7 +40,7 @@ struct Place {
 };
 
 struct LooseBox {
-    ParameterBox box;
+    BoxPart part;
     double misfit = 0.0;
 };
 
@@ -48,6 +49,44 @@ struct LevelResult {
     std::vector<Place> points;
     std::vector<LooseBox> boxes;
 };
+
+/// The connected parts of what the boxes hold.
+std::vector<std::vector<LooseBox>> connected(const std::vector<LooseBox>& boxes, const ParameterBox& domain) {
+    std::vector<Interval> sides;
+    std::vector<std::size_t> owner;
+    for (std::size_t k = 0; k < boxes.size(); ++k)
+        for (const ParameterBox& contact : contacts(boxes[k].part)) {
+            const auto add = [&](const ParameterInterval& side, const ParameterInterval& whole) {
+                sides.emplace_back((side.low - whole.low) / whole.length(), (side.high - whole.low) / whole.length());
+            };
+            add(contact.u, domain.u);
+            add(contact.v, domain.v);
+            owner.push_back(k);
+        }
+    // Sides of neighbouring boxes are the same numbers up to the rounding of the change of parameters.
+    constexpr double gap = 1e-13;
+    const BoxClusters clusters = cluster_boxes(sides, 2, gap);
+    DisjointSets sets(boxes.size());
+    std::vector<std::size_t> first(clusters.count, boxes.size());
+    for (std::size_t k = 0; k < owner.size(); ++k) {
+        std::size_t& in_cluster = first[clusters.cluster[k]];
+        if (in_cluster == boxes.size())
+            in_cluster = owner[k];
+        else
+            sets.unite(in_cluster, owner[k]);
+    }
+    std::vector<std::vector<LooseBox>> result;
+    std::vector<std::size_t> number(boxes.size());
+    for (std::size_t k = 0; k < boxes.size(); ++k) {
+        const std::size_t set = sets.find(k);
+        if (set == k) {
+            number[k] = result.size();
+            result.emplace_back();
+        }
+        result[number[set]].push_back(boxes[k]);
+    }
+    return result;
+}
 
 /// A level in the surface's unit, and what it stands for.
 struct Wanted {
@@ -180,10 +219,6 @@ CurvaturePoints SurfaceSearch::search(std::span<const CurvatureQuery> queries, c
     for (std::size_t k = 0; k < searched.size(); ++k) {
         const ParameterBox& place = patches.patches[searched[k]].domain;
         const Vector2 corner(place.u.low, place.v.low), side(place.u.length(), place.v.length());
-        const auto in_surface = [&](const ParameterBox& box) {
-            return ParameterBox{{corner.x() + box.u.low * side.x(), corner.x() + box.u.high * side.x()},
-                                {corner.y() + box.v.low * side.y(), corner.y() + box.v.high * side.y()}};
-        };
         result.boxes += found[k].sets.visited;
         result.exhausted = result.exhausted || found[k].sets.exhausted;
         for (const LevelPoint& p : found[k].sets.points) {
@@ -198,11 +233,11 @@ CurvaturePoints SurfaceSearch::search(std::span<const CurvatureQuery> queries, c
             entry.point.certified = found[k].exact;
             entry.point.radius = std::max(entry.radius.x() / domain.u.length(), entry.radius.y() / domain.v.length());
             entry.point.solutions = found[k].exact ? 1 : 0;
-            entry.point.extent = in_surface(p.box);
+            entry.point.extent = mapped({p.box, {}}, corner, side).box;
             levels[p.level].points.push_back(std::move(entry));
         }
         for (const LevelBox& box : found[k].sets.boxes)
-            levels[box.level].boxes.push_back({in_surface(box.box), box.misfit});
+            levels[box.level].boxes.push_back({mapped(box.part, corner, side), box.misfit});
     }
     for (std::size_t k = 0; k < wanted.size(); ++k) {
         std::vector<CurvaturePoint> points = without_duplicates(std::move(levels[k].points), patches);
@@ -267,44 +302,37 @@ std::vector<CurvaturePoint> SurfaceSearch::without_duplicates(std::vector<Place>
 std::vector<CurvaturePoint> SurfaceSearch::parts(const Wanted& wanted, const std::vector<LooseBox>& boxes,
                                                  std::vector<CurvaturePoint>& points) const {
     if (boxes.empty()) return wanted.level.exact() ? std::vector<CurvaturePoint>{} : points;
-    const ParameterBox domain = surface_.domain();
-    std::vector<Interval> sides;
-    for (const auto& [box, misfit] : boxes) {
-        sides.emplace_back((box.u.low - domain.u.low) / domain.u.length(),
-                           (box.u.high - domain.u.low) / domain.u.length());
-        sides.emplace_back((box.v.low - domain.v.low) / domain.v.length(),
-                           (box.v.high - domain.v.low) / domain.v.length());
-    }
-    // Sides of neighbouring boxes are the same numbers up to the rounding of the change of parameters.
-    constexpr double gap = 1e-13;
-    const BoxClusters clusters = cluster_boxes(sides, 2, gap);
-    std::vector<CurvaturePoint> result(clusters.count);
-    std::vector<std::vector<LooseBox>> members(clusters.count);
-    for (std::size_t k = 0; k < boxes.size(); ++k) members[clusters.cluster[k]].push_back(boxes[k]);
-    for (int k = 0; k < clusters.count; ++k) {
+    const std::vector<std::vector<LooseBox>> members = connected(boxes, surface_.domain());
+    const std::size_t count = members.size();
+    std::vector<CurvaturePoint> result(count);
+    for (std::size_t k = 0; k < count; ++k) {
         CurvaturePoint& part = result[k];
         part.query = wanted.query;
         part.opposite = wanted.opposite;
-        part.extent = members[k].front().box;
-        for (const auto& [box, misfit] : members[k]) {
+        part.extent = extent(members[k].front().part);
+        for (const auto& [piece, misfit] : members[k]) {
+            const ParameterBox box = extent(piece);
             part.extent.u = {std::min(part.extent.u.low, box.u.low), std::max(part.extent.u.high, box.u.high)};
             part.extent.v = {std::min(part.extent.v.low, box.v.low), std::max(part.extent.v.high, box.v.high)};
         }
     }
     if (!wanted.level.exact())
         for (const CurvaturePoint& point : points)
-            for (std::size_t k = 0; k < boxes.size(); ++k)
-                if (boxes[k].box.contains(point.at.u, point.at.v)) {
-                    CurvaturePoint& part = result[clusters.cluster[k]];
-                    part.solutions += point.solutions;
-                    if (!part.certified) {
-                        part.at = point.at;
-                        part.certified = point.certified;
-                        part.radius = point.radius;
-                    }
-                    break;
+            for (std::size_t k = 0; k < count; ++k) {
+                CurvaturePoint& part = result[k];
+                const auto holds = [&](const LooseBox& loose) { return contains(loose.part, point.at.u, point.at.v); };
+                if (!part.extent.contains(point.at.u, point.at.v) ||
+                    std::none_of(members[k].begin(), members[k].end(), holds))
+                    continue;
+                part.solutions += point.solutions;
+                if (!part.certified) {
+                    part.at = point.at;
+                    part.certified = point.certified;
+                    part.radius = point.radius;
                 }
-    for (int k = 0; k < clusters.count; ++k)
+                break;
+            }
+    for (std::size_t k = 0; k < count; ++k)
         if (!result[k].certified) improve(wanted, members[k], result[k]);
     return result;
 }
@@ -319,9 +347,13 @@ void SurfaceSearch::improve(const Wanted& wanted, const std::vector<LooseBox>& b
     const double h_unit = level.exact() ? std::sqrt(k_unit) : level.mean_tolerance;
     const ParameterBox& extent = point.extent;
     double least = std::numeric_limits<double>::infinity();
-    point.at = {0, starts.front().box.u.middle(), starts.front().box.v.middle()};
+    const auto middle = [](const LooseBox& start) {
+        const ParameterBox box = umbilic::extent(start.part);
+        return Vector2(box.u.middle(), box.v.middle());
+    };
+    point.at = {0, middle(starts.front()).x(), middle(starts.front()).y()};
     for (std::size_t k = 0; k < count; ++k) {
-        Vector2 at(starts[k].box.u.middle(), starts[k].box.v.middle());
+        Vector2 at = middle(starts[k]);
         for (int step = 0; step < most_steps; ++step) {
             const SurfaceDerivatives d = surface_.derivatives(at.x(), at.y(), 3);
             if (!regular(d)) break;

@@ -4,12 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 
 #include <Eigen/Geometry>
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
-
-#include <umbilic/core/errors.h>
 
 namespace umbilic {
 
@@ -40,14 +37,6 @@ constexpr double meeting_sine = 1e-6;
 /// Rounding of a parameter relative to its domain.
 constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
 
-/// A piece narrower in space than this, relative to the face, is passed over. Second derivatives across it are
-/// differences of control points over the square of its width, 1e-14 of the face's: coordinates rounded at 1e-16 leave
-/// them a digit or two, and none where the face lies far from the origin. A neighbour continued over it misses the
-/// surface by no more than that width, even at a crease.
-constexpr double narrowest_piece = 1e-7;
-/// Only pieces narrower than this in the parameter, relative to the domain, are measured in space.
-constexpr double narrow_parameter = 1e-4;
-
 Vector2 vector(const State& x) {
     return {x[0], x[1]};
 }
@@ -59,141 +48,9 @@ const ParameterInterval& side(const ParameterBox& box, int k) {
     return k == 0 ? box.u : box.v;
 }
 
-/// Whether piece number i in parameter k is too narrow in space to carry the field, seen at both ends and in the
-/// middle of every piece along it.
-bool too_narrow(const NurbsSurface& surface, int k, int i, double size) {
-    const std::vector<double>& across = (k == 0 ? surface.u_knots() : surface.v_knots()).breaks();
-    const std::vector<double>& along = (k == 0 ? surface.v_knots() : surface.u_knots()).breaks();
-    if (across[i + 1] - across[i] > narrow_parameter * (across.back() - across.front())) return false;
-    const auto width = [&](double t) {
-        const auto at = [&](double s) { return k == 0 ? surface.value(s, t) : surface.value(t, s); };
-        const Vector3 middle = at(0.5 * (across[i] + across[i + 1]));
-        return (middle - at(across[i])).norm() + (at(across[i + 1]) - middle).norm();
-    };
-    for (std::size_t j = 0; j + 1 < along.size(); ++j)
-        for (const double t : {along[j], 0.5 * (along[j] + along[j + 1]), along[j + 1]})
-            if (width(t) > narrowest_piece * size) return false;
-    return true;
-}
-
-/// The piece whose polynomial is taken on each piece in parameter k: of narrow ones the one before them, or, at the
-/// beginning of the domain, after them.
-std::vector<int> carriers(const NurbsSurface& surface, int k, double size) {
-    const int count = static_cast<int>((k == 0 ? surface.u_knots() : surface.v_knots()).breaks().size()) - 1;
-    std::vector<int> result(count);
-    std::vector<int> wide;
-    for (int i = 0; i < count; ++i)
-        if (!too_narrow(surface, k, i, size)) wide.push_back(i);
-    for (int i = 0; i < count; ++i) {
-        const auto after = std::upper_bound(wide.begin(), wide.end(), i);
-        // Where all are narrow none is better than another.
-        result[i] = wide.empty() ? i : after == wide.begin() ? wide.front() : *std::prev(after);
-    }
-    return result;
-}
-
-}  // namespace
-
-Vector2 FieldValue::rates(const Vector3& vector) const {
-    const double E = r_u.squaredNorm(), F = r_u.dot(r_v), G = r_v.squaredNorm();
-    const double a = r_u.dot(vector), b = r_v.dot(vector), determinant = E * G - F * F;
-    return {(G * a - F * b) / determinant, (E * b - F * a) / determinant};
-}
-
-Vector2 TracedStep::at(double x) const {
-    const double y = 1 - x;
-    const auto cubic = [&](double t) -> Vector2 {
-        const double w = 1 - t;
-        return w * w * (1 + 2 * t) * start + t * t * (3 - 2 * t) * end +
-               length * t * w * (w * start_rate - t * end_rate);
-    };
-    return cubic(x) + 16 * x * x * y * y * (middle - cubic(0.5));
-}
-
-Vector2 TracedStep::rate(double x) const {
-    const double y = 1 - x;
-    const Vector2 half = 0.5 * (start + end) + 0.125 * length * (start_rate - end_rate);
-    const Vector2 slope = 6 * x * y * (end - start) +
-                          length * (y * (1 - 3 * x) * start_rate - x * (2 - 3 * x) * end_rate) +
-                          32 * x * y * (1 - 2 * x) * (middle - half);
-    return slope / length;
-}
-
-std::size_t TracedLine::step_at(double s) const {
-    const auto next = std::upper_bound(steps.begin(), steps.end(), s,
-                                       [](double value, const TracedStep& step) { return value < step.s; });
-    return next == steps.begin() ? 0 : static_cast<std::size_t>(next - steps.begin()) - 1;
-}
-
-Vector2 TracedLine::at(double s) const {
-    const TracedStep& step = steps[step_at(s)];
-    return step.at(std::clamp((s - step.s) / step.length, 0.0, 1.0));
-}
-
-LineTracer::LineTracer(const Face& face, LineField field)
-    : face_(face), field_(field), closed_({face.u_closed || face.u_periodic, face.v_closed || face.v_periodic}) {
-    size_ = face.area > 0.0 ? std::sqrt(face.area) : face.surface.pole_box().diagonal();
-    if (!(size_ > 0.0)) throw InvalidInput("face " + std::to_string(face.number) + " has no extent");
-    for (const int k : {0, 1}) carrier_[k] = carriers(face.surface, k, size_);
-}
-
-Vector2 LineTracer::wrapped(Vector2 parameters) const {
-    const ParameterBox domain = face_.surface.domain();
-    for (int k = 0; k < 2; ++k) {
-        const ParameterInterval& range = side(domain, k);
-        if (!closed_[k] || range.contains(parameters[k])) continue;
-        parameters[k] -= range.length() * std::floor((parameters[k] - range.low) / range.length());
-        parameters[k] = range.clamp(parameters[k]);
-    }
-    return parameters;
-}
-
-FieldValue LineTracer::piece_value(const std::array<int, 2>& piece, const Vector2& parameters,
-                                   CurvatureFamily family) const {
-    const SurfaceDerivatives d =
-        face_.surface.piece_derivatives(piece[0], piece[1], parameters.x(), parameters.y(), field_.axis ? 1 : 2);
-    FieldValue value;
-    value.point = d.r();
-    value.r_u = d.r_u();
-    value.r_v = d.r_v();
-    if (field_.axis) {
-        value.regular = regular(d);
-        if (!value.regular) return value;
-        value.normal = unit_normal(d);
-        const Vector3 along = *field_.axis - field_.axis->dot(value.normal) * value.normal;
-        value.spread = along.norm();
-        value.kappa = 1.0;
-        if (value.spread > 0.0) value.tangent = along / value.spread;
-        if (family == CurvatureFamily::minimum) value.tangent = value.normal.cross(value.tangent).eval();
-        return value;
-    }
-    const Curvature c = curvature(d);
-    value.regular = c.regular;
-    value.normal = c.normal;
-    // The outward side of a reversed face is the other one: there the families change places.
-    value.tangent = (family == CurvatureFamily::maximum) != face_.reversed ? c.direction_max : c.direction_min;
-    value.spread = c.kappa_max - c.kappa_min;
-    value.kappa = std::max(std::abs(c.kappa_max), std::abs(c.kappa_min));
-    return value;
-}
-
-FieldValue LineTracer::value(const Vector2& parameters, CurvatureFamily family) const {
-    return piece_value(piece_at(parameters), parameters, family);
-}
-
-std::array<int, 2> LineTracer::piece_at(const Vector2& parameters) const {
-    const NurbsSurface& surface = face_.surface;
-    return {carrier_[0][surface.u_knots().piece(parameters.x())], carrier_[1][surface.v_knots().piece(parameters.y())]};
-}
-
-bool LineTracer::indeterminate(const FieldValue& value) const {
-    const double scale = field_.axis ? 1.0 : std::max(value.kappa, 1.0 / size_);
-    return !value.regular || !(value.spread > collapse * scale);
-}
-
 /// The state of one run along a line.
 struct LineRun {
-    const LineTracer& tracer;
+    const FaceLineField& field;
     CurvatureFamily family;
     const TraceOptions& options;
     TracedLine line;
@@ -211,51 +68,41 @@ struct LineRun {
     Vector3 first_point, first_tangent;
     int asked = 1;  ///< multiple of stop_spacing at which to ask next whether to stop
 
-    const NurbsSurface& surface() const { return tracer.face_.surface; }
+    const NurbsSurface& surface() const { return field.face().surface; }
 
     /// The field at `parameters`, turned so that it goes on in the direction of the run.
     Vector2 rates(const Vector2& parameters) {
-        latest = tracer.piece_value(piece, parameters, family);
+        latest = field.piece_value(piece, parameters, family);
         latest_tangent = latest.tangent.dot(tangent) < 0.0 ? Vector3(-latest.tangent) : latest.tangent;
         return latest.rates(latest_tangent);
-    }
-
-    const std::vector<double>& breaks(int k) const {
-        return (k == 0 ? surface().u_knots() : surface().v_knots()).breaks();
-    }
-
-    /// Numbers of the breaks between which lies the part that piece number i in parameter k carries.
-    std::array<int, 2> carried(int k, int i) const {
-        const auto [first, last] = std::equal_range(tracer.carrier_[k].begin(), tracer.carrier_[k].end(), i);
-        const auto begin = tracer.carrier_[k].begin();
-        return {static_cast<int>(first - begin), static_cast<int>(last - begin)};
     }
 
     /// What the piece carries.
     ParameterBox piece_box() const {
         const auto range = [&](int k) {
-            const auto [first, last] = carried(k, piece[k]);
-            return ParameterInterval{breaks(k)[first], breaks(k)[last]};
+            const auto [first, last] = field.carried(k, piece[k]);
+            return ParameterInterval{field.breaks(k)[first], field.breaks(k)[last]};
         };
         return {range(0), range(1)};
     }
 
     bool begin(const Vector2& start, const Vector3& direction) {
         x = start;
-        piece = tracer.piece_at(x);
+        piece = field.piece_at(x);
         tangent = direction;
         // On a knot line (or at the end of the domain) the run may lead into the piece before.
         const Vector2 rate = rates(x);
         for (int k = 0; k < 2; ++k)
-            if (const int first = carried(k, piece[k])[0]; first > 0 && x[k] <= breaks(k)[first] && rate[k] < 0.0)
-                piece[k] = tracer.carrier_[k][first - 1];
+            if (const int first = field.carried(k, piece[k])[0];
+                first > 0 && x[k] <= field.breaks(k)[first] && rate[k] < 0.0)
+                piece[k] = field.carrier(k, first - 1);
         rates(x);
         here = latest;
         tangent = latest_tangent;
         first_point = here.point;
         first_tangent = tangent;
         step = options.longest_step;
-        return !tracer.indeterminate(here);
+        return !field.indeterminate(here);
     }
 
     /// Tries a step of length `step` at most; on success it is appended to the line, which then ends at x, and its
@@ -297,9 +144,8 @@ struct LineRun {
                 return true;
             }
             step = h * std::min(factor, safety);
-            if (step < shortest_step * tracer.size_) {
-                const double scale = tracer.field_.axis ? 1.0 : std::max(here.kappa, 1.0 / tracer.size_);
-                line.stuck = here.regular && here.spread > near_umbilic * scale;
+            if (step < shortest_step * field.size()) {
+                line.stuck = here.regular && here.spread > near_umbilic * field.spread_scale(here);
                 line.ended = CurveEnd::umbilic;
                 return false;
             }
@@ -391,21 +237,21 @@ struct LineRun {
 
     /// Goes on into the piece beyond the knot line on which x lies. False if there is none.
     bool enter_next(int k, bool up) {
-        const int pieces = static_cast<int>(breaks(k).size()) - 1;
+        const int pieces = static_cast<int>(field.breaks(k).size()) - 1;
         const Vector3 point = here.point, normal = here.normal;
-        const auto [first, last] = carried(k, piece[k]);
+        const auto [first, last] = field.carried(k, piece[k]);
         int next = up ? last : first - 1;
         if (next < 0 || next >= pieces) {
-            if (!tracer.closed_[k]) {
-                line.ended = tracer.indeterminate(here) ? CurveEnd::umbilic : CurveEnd::boundary;
+            if (!field.closed(k)) {
+                line.ended = field.indeterminate(here) ? CurveEnd::umbilic : CurveEnd::boundary;
                 return false;
             }
             next = up ? 0 : pieces - 1;
-            x[k] = up ? breaks(k).front() : breaks(k).back();
+            x[k] = up ? field.breaks(k).front() : field.breaks(k).back();
         }
-        piece[k] = tracer.carrier_[k][next];
+        piece[k] = field.carrier(k, next);
         rates(x);
-        const bool joined = (latest.point - point).norm() <= 1e-6 * tracer.size_;
+        const bool joined = (latest.point - point).norm() <= 1e-6 * field.size();
         if (!joined || !latest.regular || latest.normal.dot(normal) < smooth_cosine) {
             line.ended = CurveEnd::boundary;
             return false;
@@ -413,7 +259,7 @@ struct LineRun {
         // Where curvature jumps, the directions of both pieces may lead to the knot line: no line goes on from there.
         const double sense = up ? 1.0 : -1.0;
         const bool thrown_back = sense * across(latest, latest_tangent, k) < -meeting_sine;
-        if (tracer.indeterminate(latest) || latest_tangent.dot(tangent) < forward_cosine || thrown_back) {
+        if (field.indeterminate(latest) || latest_tangent.dot(tangent) < forward_cosine || thrown_back) {
             line.ended = CurveEnd::umbilic;
             return false;
         }
@@ -424,11 +270,11 @@ struct LineRun {
 
     /// Ends the line where its last step crosses a trimming loop.
     bool crosses_loop() {
-        const TrimmingRegion& region = tracer.face_.region;
+        const TrimmingRegion& region = field.face().region;
         if (region.whole_domain()) return false;
         const TracedStep& last = line.steps.back();
         const auto outside = [&](double t) {
-            const Vector2 p = tracer.wrapped(last.at(t));
+            const Vector2 p = field.wrapped(last.at(t));
             return region.classify(p.x(), p.y()) == Containment::outside;
         };
         double low = 0.0;
@@ -459,7 +305,7 @@ struct LineRun {
         const TracedStep& last = line.steps.back();
         for (; asked * options.stop_spacing <= last.s + last.length; ++asked) {
             const double share = std::clamp((asked * options.stop_spacing - last.s) / last.length, 0.0, 1.0);
-            if (!options.stop(tracer.piece_value(last.piece, last.at(share), family))) continue;
+            if (!options.stop(field.piece_value(last.piece, last.at(share), family))) continue;
             line.stopped = asked * options.stop_spacing;
             line.ended = CurveEnd::length;
             return true;
@@ -499,9 +345,41 @@ struct LineRun {
     }
 };
 
+}  // namespace
+
+Vector2 TracedStep::at(double x) const {
+    const double y = 1 - x;
+    const auto cubic = [&](double t) -> Vector2 {
+        const double w = 1 - t;
+        return w * w * (1 + 2 * t) * start + t * t * (3 - 2 * t) * end +
+               length * t * w * (w * start_rate - t * end_rate);
+    };
+    return cubic(x) + 16 * x * x * y * y * (middle - cubic(0.5));
+}
+
+Vector2 TracedStep::rate(double x) const {
+    const double y = 1 - x;
+    const Vector2 half = 0.5 * (start + end) + 0.125 * length * (start_rate - end_rate);
+    const Vector2 slope = 6 * x * y * (end - start) +
+                          length * (y * (1 - 3 * x) * start_rate - x * (2 - 3 * x) * end_rate) +
+                          32 * x * y * (1 - 2 * x) * (middle - half);
+    return slope / length;
+}
+
+std::size_t TracedLine::step_at(double s) const {
+    const auto next = std::upper_bound(steps.begin(), steps.end(), s,
+                                       [](double value, const TracedStep& step) { return value < step.s; });
+    return next == steps.begin() ? 0 : static_cast<std::size_t>(next - steps.begin()) - 1;
+}
+
+Vector2 TracedLine::at(double s) const {
+    const TracedStep& step = steps[step_at(s)];
+    return step.at(std::clamp((s - step.s) / step.length, 0.0, 1.0));
+}
+
 TracedLine LineTracer::trace(const Vector2& start, CurvatureFamily family, const Vector3& direction,
                              const TraceOptions& options, const Progress& progress) const {
-    LineRun run{.tracer = *this, .family = family, .options = options};
+    LineRun run{.field = *this, .family = family, .options = options};
     if (!run.begin(start, direction)) {
         run.line.ended = CurveEnd::umbilic;
         return run.line;

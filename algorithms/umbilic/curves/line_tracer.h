@@ -7,31 +7,10 @@
 #include <vector>
 
 #include <umbilic/core/progress.h>
+#include <umbilic/curves/line_field.h>
 #include <umbilic/curves/surface_curve.h>
-#include <umbilic/differential/curvature.h>
-#include <umbilic/model/model.h>
 
 namespace umbilic {
-
-/// Two orthogonal families of lines on a face: the lines of curvature, or, where a surface has none (plane, sphere),
-/// the lines that climb along a given axis (maximum) and those that run level (minimum).
-struct LineField {
-    std::optional<Vector3> axis;
-};
-
-/// A line field's value at a point.
-struct FieldValue {
-    Vector3 point = Vector3::Zero();
-    Vector3 normal = Vector3::UnitZ();  ///< of the surface, r_u x r_v
-    Vector3 r_u, r_v;
-    Vector3 tangent = Vector3::UnitX();  ///< unit, of the family asked for; its sign is arbitrary
-    double spread = 0.0;                 ///< kappa_max - kappa_min, or of an axis the length of its tangential part
-    double kappa = 0.0;                  ///< greater of the two |kappa|, or 1 for an axis
-    bool regular = false;
-
-    /// Rates (du/ds, dv/ds) of a tangent vector.
-    Vector2 rates(const Vector3& vector) const;
-};
 
 /// One step of a traced line, in the parameter plane: a quartic in arc length through both ends, their rates and the
 /// middle (Dormand and Prince's continuous extension).
@@ -73,46 +52,15 @@ struct TraceOptions {
     std::function<bool(const FieldValue&)> stop;
 };
 
-/// Traces lines on one face (thesis 3.3). Within a polynomial piece of the surface the direction is a smooth function;
-/// the integration stops at every knot line and starts anew in the next piece, so that its order is kept. Pieces so
-/// narrow that rounding of the control points leaves no second derivative are passed over: the piece before them
-/// continues to their far side. References the face.
-class LineTracer {
+/// Traces lines on one face (thesis 3.3). The integration stops at every knot line and starts anew in the next piece,
+/// so that its order is kept. References the face.
+class LineTracer : public FaceLineField {
 public:
-    LineTracer(const Face& face, LineField field = {});
-
-    const Face& face() const { return face_; }
-    bool along_axis() const { return field_.axis.has_value(); }
-    /// The field on the piece of the surface that holds (u, v).
-    FieldValue value(const Vector2& parameters, CurvatureFamily family) const;
-    /// Length the face's thresholds are relative to: sqrt(area), mm.
-    double size() const { return size_; }
-    /// True if the families cannot be told apart there: spread <= collapse * max(kappa, 1 / size), or singular.
-    bool indeterminate(const FieldValue& value) const;
+    using FaceLineField::FaceLineField;
 
     /// Line from (u, v) towards `direction` (of its two senses the one with the positive product).
     TracedLine trace(const Vector2& start, CurvatureFamily family, const Vector3& direction,
                      const TraceOptions& options, const Progress& progress = {}) const;
-
-    /// Parameters moved into the domain where the surface is closed.
-    Vector2 wrapped(Vector2 parameters) const;
-
-    /// Relative difference of the principal curvatures below which directions are lost.
-    static constexpr double collapse = 1e-6;
-
-private:
-    FieldValue piece_value(const std::array<int, 2>& piece, const Vector2& parameters, CurvatureFamily family) const;
-    /// Number of the piece that carries the field at (u, v): not one that is passed over.
-    std::array<int, 2> piece_at(const Vector2& parameters) const;
-    friend struct LineRun;
-
-    const Face& face_;
-    LineField field_;
-    double size_ = 1.0;
-    std::array<bool, 2> closed_ = {false, false};
-    /// For every piece in u and in v the piece whose polynomial is taken on it: itself, or a neighbour if it is too
-    /// narrow.
-    std::array<std::vector<int>, 2> carrier_;
 };
 
 }  // namespace umbilic

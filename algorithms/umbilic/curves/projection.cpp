@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <memory>
 #include <string>
 
 #include <Eigen/Dense>
@@ -18,14 +16,9 @@ namespace umbilic {
 
 namespace {
 
-/// |det K| / det(E F G), the product of 1 - (distance / radius of curvature), below which a foot counts as one of the
-/// evolute.
-constexpr double singular = 1e-6;
 /// A given foot is off by at most this, relative to the distance between curve and target plus sqrt(area): the thesis
 /// prints four digits.
 constexpr double foot_accuracy = 1e-2;
-constexpr int newton_steps = 50;
-constexpr double newton_accuracy = 1e-14;
 /// Longest step relative to the length of the curve.
 constexpr double longest_step = 0.1;
 /// As in line_of_curvature: principal curvatures closer than this are the same, and the direction within one step turns
@@ -33,31 +26,6 @@ constexpr double longest_step = 0.1;
 constexpr double collapse = 1e-6, forward_cosine = 0.7;
 /// Points of the first mesh of the boundary value problem (thesis Fig. 3-2) and scale of p and q.
 constexpr int mesh_points = 33;
-
-/// K of (3.32), with the sign of rho (T 15).
-Eigen::Matrix2d projection_matrix(const SurfaceDerivatives& d, const Vector3& point) {
-    const double rho = (d.r() - point).dot(unit_normal(d));
-    const auto [E, F, G] = first_form(d);
-    const auto [L, M, N] = second_form(d);
-    Eigen::Matrix2d K;
-    K << E + rho * L, F + rho * M, F + rho * M, G + rho * N;
-    return K;
-}
-
-/// Product of 1 + rho kappa over both principal curvatures: its sign changes at the evolute.
-double evolute_margin(const SurfaceDerivatives& d, const Vector3& point) {
-    return projection_matrix(d, point).determinant() / first_form(d).determinant();
-}
-
-/// Rates of the foot of a point that moves with the given velocity (3.29); false at the evolute.
-bool foot_rates(const SurfaceDerivatives& target, const Vector3& point, const Vector3& velocity, double sign,
-                Vector2& rate) {
-    if (!regular(target)) return false;
-    const Eigen::Matrix2d K = projection_matrix(target, point);
-    if (!(sign * K.determinant() > singular * first_form(target).determinant())) return false;
-    rate = K.inverse() * Vector2(velocity.dot(target.r_u()), velocity.dot(target.r_v()));
-    return true;
-}
 
 double projected_speed(const SurfaceDerivatives& target, const Vector2& rate) {
     return (target.r_u() * rate.x() + target.r_v() * rate.y()).norm();
@@ -110,7 +78,7 @@ Vector2 start_foot(const Face& onto, const Vector3& point, const ProjectionOptio
 /// Sign of the evolute margin at the start.
 double start_sign(const Face& onto, const Vector2& foot, const Vector3& point) {
     const double margin = evolute_margin(onto.surface.derivatives(foot.x(), foot.y(), 2), point);
-    if (!(std::abs(margin) > singular))
+    if (!(std::abs(margin) > least_evolute_margin))
         throw NumericFailure("projection onto face " + std::to_string(onto.number) +
                              ": the curve's start lies at a centre of curvature of its foot; start elsewhere");
     return margin > 0.0 ? 1.0 : -1.0;
@@ -163,45 +131,6 @@ ProjectedCurve both(const SurfacePath& path, const Face& onto, const ProjectionO
 
 }  // namespace
 
-std::optional<Vector2> foot_point(const NurbsSurface& surface, const Vector3& point, const Vector2& guess) {
-    if (!point.allFinite() || !guess.allFinite()) throw InvalidInput("foot point: point and guess must be finite");
-    const ParameterBox domain = surface.domain();
-    Vector2 x = guess;
-    double before = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < newton_steps; ++i) {
-        const SurfaceDerivatives d = surface.derivatives(x.x(), x.y(), 2);
-        if (!regular(d)) return std::nullopt;
-        const Vector3 offset = d.r() - point;
-        Eigen::Matrix2d J;
-        const double uv = d.r_u().dot(d.r_v()) + offset.dot(d.r_uv());
-        J << d.r_u().squaredNorm() + offset.dot(d.r_uu()), uv, uv, d.r_v().squaredNorm() + offset.dot(d.r_vv());
-        const Vector2 move = -J.inverse() * Vector2(offset.dot(d.r_u()), offset.dot(d.r_v()));
-        if (!move.allFinite()) return std::nullopt;
-        const Vector2 next = x + move;
-        const Vector2 inside(domain.u.clamp(next.x()), domain.v.clamp(next.y()));
-        const double length = (d.r_u() * move.x() + d.r_v() * move.y()).norm();
-        const double scale = d.r_u().norm() * domain.u.length() + d.r_v().norm() * domain.v.length();
-        x = inside;
-        if (length <= newton_accuracy * scale || (length >= before && length <= 1e3 * newton_accuracy * scale)) {
-            // A step out of the domain is none that converges.
-            return (next - inside).cwiseAbs().maxCoeff() <= 1e3 * newton_accuracy ? std::optional(x) : std::nullopt;
-        }
-        before = length;
-    }
-    return std::nullopt;
-}
-
-std::vector<StationaryPoint> feet(const Face& face, const Vector3& point, const Progress& progress) {
-    std::vector<StationaryPoint> result;
-    for (StationaryPoint& found : find_stationary_points(face.surface, point, {}, progress).points) {
-        const bool inside = face.region.classify(found.at.u, found.at.v) != Containment::outside;
-        if (found.kind != FootKind::interior || !inside) continue;
-        found.at.face = face.number;
-        result.push_back(found);
-    }
-    return result;
-}
-
 SpaceCurve polyline(std::vector<Vector3> points) {
     if (points.size() < 2) throw InvalidInput("projection: a curve needs at least two points");
     std::vector<double> at = {0.0};
@@ -247,11 +176,11 @@ ProjectedCurve project_curve(const SpaceCurve& curve, const Face& onto, const Pr
                        PathState& rate) -> std::optional<CurveEnd> {
         const auto [point, velocity] = at(s);
         if (!point.allFinite() || !velocity.allFinite()) throw InvalidInput("projection: the curve is not finite");
-        Vector2 foot_rate;
-        if (!foot_rates(surfaces[0], point, velocity, sign, foot_rate)) return CurveEnd::evolute;
-        rate[0] = foot_rate.x();
-        rate[1] = foot_rate.y();
-        rate[projected_length] = projected_speed(surfaces[0], foot_rate);
+        const std::optional<Vector2> foot_rate = foot_rates(surfaces[0], point, velocity, sign);
+        if (!foot_rate) return CurveEnd::evolute;
+        rate[0] = foot_rate->x();
+        rate[1] = foot_rate->y();
+        rate[projected_length] = projected_speed(surfaces[0], *foot_rate);
         return std::nullopt;
     };
     system.begin_step = [&](double s, const ChartSurfaces&) { step_start = s; };
@@ -314,9 +243,9 @@ ProjectedCurve project_line_of_curvature(const Face& from, const Vector2& start,
         const std::optional<Vector3> tangent = onward(surfaces[0]);
         if (!tangent) return CurveEnd::umbilic;
         const Vector2 own = tangent_components(surfaces[0], *tangent);
-        Vector2 foot_rate;
-        if (!foot_rates(surfaces[1], surfaces[0].r(), *tangent, sign, foot_rate)) return CurveEnd::evolute;
-        rate = {own.x(), own.y(), 0.0, 0.0, foot_rate.x(), foot_rate.y(), projected_speed(surfaces[1], foot_rate)};
+        const std::optional<Vector2> foot_rate = foot_rates(surfaces[1], surfaces[0].r(), *tangent, sign);
+        if (!foot_rate) return CurveEnd::evolute;
+        rate = {own.x(), own.y(), 0.0, 0.0, foot_rate->x(), foot_rate->y(), projected_speed(surfaces[1], *foot_rate)};
         return std::nullopt;
     };
     system.begin_step = [&](double, const ChartSurfaces& surfaces) {
@@ -356,16 +285,16 @@ ProjectedCurve project_geodesic(const Face& from, const Vector2& start, const Ve
         const SurfaceDerivatives& own = surfaces[0];
         if (!regular(own)) return CurveEnd::boundary;
         const Vector2 acceleration = geodesic_acceleration(own, {y[2], y[3]});
-        Vector2 foot_rate;
-        if (!foot_rates(surfaces[1], own.r(), own.r_u() * y[2] + own.r_v() * y[3], sign, foot_rate))
-            return CurveEnd::evolute;
+        const std::optional<Vector2> foot_rate =
+            foot_rates(surfaces[1], own.r(), own.r_u() * y[2] + own.r_v() * y[3], sign);
+        if (!foot_rate) return CurveEnd::evolute;
         rate = {y[2],
                 y[3],
                 acceleration.x(),
                 acceleration.y(),
-                foot_rate.x(),
-                foot_rate.y(),
-                projected_speed(surfaces[1], foot_rate)};
+                foot_rate->x(),
+                foot_rate->y(),
+                projected_speed(surfaces[1], *foot_rate)};
         return std::nullopt;
     };
     system.enter = [](int chart, const SurfaceDerivatives& before, const SurfaceDerivatives& after, PathState& y) {
@@ -403,11 +332,10 @@ ProjectedGeodesicBetween project_geodesic_between(const Face& from, const Vector
         if (!geodesic.rate(y.head<4>(), own)) return false;
         g.head<4>() = own;
         const SurfaceDerivatives d = from.surface.derivatives(y[0], y[1], 1);
-        Vector2 foot_rate;
-        if (!foot_rates(onto.surface.derivatives(y[4], y[5], 2), d.r(), d.r_u() * y[2] + d.r_v() * y[3], sign,
-                        foot_rate))
-            return false;
-        g.tail<2>() = foot_rate;
+        const std::optional<Vector2> foot_rate =
+            foot_rates(onto.surface.derivatives(y[4], y[5], 2), d.r(), d.r_u() * y[2] + d.r_v() * y[3], sign);
+        if (!foot_rate) return false;
+        g.tail<2>() = *foot_rate;
         return true;
     };
     problem.at_start = geodesic.at_start;

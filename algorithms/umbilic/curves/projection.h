@@ -7,22 +7,13 @@
 #include <vector>
 
 #include <umbilic/core/progress.h>
+#include <umbilic/curves/foot_point.h>
 #include <umbilic/curves/relaxation.h>
-#include <umbilic/curves/stationary_points.h>
 #include <umbilic/curves/surface_curve.h>
 #include <umbilic/curves/surface_path.h>
 #include <umbilic/model/model.h>
 
 namespace umbilic {
-
-/// Orthogonal projection of a point: Newton's method on (r - p).r_u = (r - p).r_v = 0 from a guess (thesis 3.5.2,
-/// (3.20)-(3.24)). Nothing if it does not converge, or to a point outside of the surface's domain.
-std::optional<Vector2> foot_point(const NurbsSurface& surface, const Vector3& point, const Vector2& guess);
-
-/// All feet of a point on a face: the stationary points of the distance inside the surface (find_stationary_points())
-/// that the face's loops do not cut away, nearest first (thesis 3.5.6). A point whose feet fill a curve or a region,
-/// such as a centre of curvature, has those that were told apart. Throws InvalidInput if the point is not finite.
-std::vector<StationaryPoint> feet(const Face& face, const Vector3& point, const Progress& progress = {});
 
 /// A curve in space by any parameter.
 struct SpaceCurve {

@@ -36,6 +36,19 @@ struct JoinedFaces {
     JoinedFaces& operator=(const JoinedFaces&) = delete;
 };
 
+/// Joins to the other faces of a model, or none where a curve shall stay on one face.
+class OptionalJoins {
+public:
+    /// Refers to the model.
+    OptionalJoins(const Model& model, bool one_face) {
+        if (!one_face && model.faces.size() > 1) joined_.emplace(model);
+    }
+    const SmoothJoins* get() const { return joined_ ? &joined_->joins : nullptr; }
+
+private:
+    std::optional<JoinedFaces> joined_;
+};
+
 /// State of a system of ordinary differential equations on surfaces; components that a system does not use stay 0.
 using PathState = std::array<double, 7>;
 

@@ -91,6 +91,14 @@ public:
             for (Eigen::Index column = 0; column < result.cols(); ++column) result(row, column) = number();
         return result;
     }
+    /// What add() wrote of a value of the same type.
+    void read(std::uint64_t& value) { value = integer<std::uint64_t>(); }
+    void read(double& value) { value = number(); }
+    void read(std::string& value) { value = text(); }
+    template <int rows, int columns>
+    void read(Eigen::Matrix<double, rows, columns>& value) {
+        value = matrix<Eigen::Matrix<double, rows, columns>>();
+    }
     /// Number of items that follow, each at least `item_bytes` long.
     std::size_t count(std::size_t item_bytes) {
         const auto value = integer<std::uint64_t>();

@@ -2,10 +2,12 @@
 #include <umbilic/model/serialization.h>
 
 #include <algorithm>
+#include <concepts>
 #include <istream>
 #include <limits>
 #include <ostream>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include <boost/crc.hpp>
@@ -74,7 +76,34 @@ std::string read_envelope(std::string_view magic, std::istream& in) {
     return contents;
 }
 
-// Parts of a model, each written and read by a pair of functions that stand together.
+// Records in which nothing has to be checked but that numbers are finite: their members in the order of the bytes.
+
+template <class Record, class Type>
+concept of_type = std::same_as<std::remove_const_t<Record>, Type>;
+
+auto members(of_type<ElementarySurface> auto& surface) {
+    return std::tie(surface.location, surface.axis, surface.x_axis, surface.radius, surface.minor_radius,
+                    surface.semi_angle);
+}
+auto members(of_type<Solid> auto& solid) {
+    return std::tie(solid.volume, solid.area, solid.centroid, solid.inertia, solid.name);
+}
+auto members(of_type<Source> auto& source) {
+    return std::tie(source.path, source.sha256, source.bytes, source.format, source.unit, source.unit_in_mm);
+}
+
+template <class Record>
+void add_members(BinaryWriter& out, const Record& record) {
+    std::apply([&](const auto&... member) { (out.add(member), ...); }, members(record));
+}
+template <class Record>
+Record record(BinaryReader& in) {
+    Record result;
+    std::apply([&](auto&... member) { (in.read(member), ...); }, members(result));
+    return result;
+}
+
+// Other parts of a model, each written and read by a pair of functions that stand together.
 
 void add(BinaryWriter& out, const KnotVector& knots) {
     out.add(std::int32_t(knots.degree()));
@@ -140,30 +169,11 @@ TrimmingRegion trimming_region(BinaryReader& in, const ParameterBox& domain) {
     return TrimmingRegion(domain, std::move(loops), std::move(u), std::move(v));
 }
 
-void add(BinaryWriter& out, const ElementarySurface& surface) {
-    out.add(surface.location);
-    out.add(surface.axis);
-    out.add(surface.x_axis);
-    out.add(surface.radius);
-    out.add(surface.minor_radius);
-    out.add(surface.semi_angle);
-}
-ElementarySurface elementary_surface(BinaryReader& in) {
-    ElementarySurface result;
-    result.location = in.matrix<Vector3>();
-    result.axis = in.matrix<Vector3>();
-    result.x_axis = in.matrix<Vector3>();
-    result.radius = in.number();
-    result.minor_radius = in.number();
-    result.semi_angle = in.number();
-    return result;
-}
-
 void add(BinaryWriter& out, const Face& face) {
     out.add(std::int32_t(face.number));
     out.add(std::int32_t(face.kind));
     out.add_flag(face.elementary.has_value());
-    if (face.elementary) add(out, *face.elementary);
+    if (face.elementary) add_members(out, *face.elementary);
     add(out, face.surface);
     add(out, face.region);
     for (const bool flag : {face.reversed, face.u_closed, face.v_closed, face.u_periodic, face.v_periodic})
@@ -179,7 +189,7 @@ Face face(BinaryReader& in, int solid_count) {
     const int number = in.integer_in(1, any_int);
     const auto kind = static_cast<SurfaceKind>(in.integer_in(0, static_cast<int>(SurfaceKind::other)));
     std::optional<ElementarySurface> elementary;
-    if (in.flag()) elementary = elementary_surface(in);
+    if (in.flag()) elementary = record<ElementarySurface>(in);
     NurbsSurface surface = nurbs_surface(in);
     TrimmingRegion region = trimming_region(in, surface.domain());
     Face result{number, kind, elementary, std::move(surface), std::move(region)};
@@ -193,42 +203,6 @@ Face face(BinaryReader& in, int solid_count) {
         result.color = color;
     }
     result.solid = in.integer_in(-1, solid_count - 1);
-    return result;
-}
-
-void add(BinaryWriter& out, const Solid& solid) {
-    out.add(solid.volume);
-    out.add(solid.area);
-    out.add(solid.centroid);
-    out.add(solid.inertia);
-    out.add(solid.name);
-}
-Solid solid(BinaryReader& in) {
-    Solid result;
-    result.volume = in.number();
-    result.area = in.number();
-    result.centroid = in.matrix<Vector3>();
-    result.inertia = in.matrix<Matrix3>();
-    result.name = in.text();
-    return result;
-}
-
-void add(BinaryWriter& out, const Source& source) {
-    out.add(source.path);
-    out.add(source.sha256);
-    out.add(source.bytes);
-    out.add(source.format);
-    out.add(source.unit);
-    out.add(source.unit_in_mm);
-}
-Source source(BinaryReader& in) {
-    Source result;
-    result.path = in.text();
-    result.sha256 = in.text();
-    result.bytes = in.integer<std::uint64_t>();
-    result.format = in.text();
-    result.unit = in.text();
-    result.unit_in_mm = in.number();
     return result;
 }
 
@@ -257,8 +231,8 @@ void check_numbers(const Model& model) {
 
 void write_model(const Model& model, std::ostream& out) {
     BinaryWriter writer;
-    add(writer, model.source);
-    writer.add_all(model.solids, [&](const Solid& solid) { add(writer, solid); });
+    add_members(writer, model.source);
+    writer.add_all(model.solids, [&](const Solid& solid) { add_members(writer, solid); });
     writer.add_all(model.faces, [&](const Face& face) { add(writer, face); });
     writer.add(std::int32_t(model.shells));
     writer.add(std::int32_t(model.declared_faces));
@@ -280,8 +254,8 @@ Model read_model(std::istream& in) {
     const std::string contents = read_envelope(model_magic, in);
     BinaryReader reader(contents);
     Model model;
-    model.source = source(reader);
-    model.solids = reader.all(8, [&] { return solid(reader); });
+    model.source = record<Source>(reader);
+    model.solids = reader.all(8, [&] { return record<Solid>(reader); });
     const int solid_count = static_cast<int>(model.solids.size());
     model.faces = reader.all(8, [&] { return face(reader, solid_count); });
     model.shells = reader.integer_in(0, any_int);

@@ -2,15 +2,11 @@
 #include <umbilic/umbilics/by_projected_polyhedron.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <tuple>
 
-#include <tbb/parallel_for.h>
-
-#include <umbilic/bernstein/projected_polyhedron.h>
-#include <umbilic/core/errors.h>
 #include <umbilic/umbilics/equations.h>
+#include <umbilic/umbilics/patch_systems.h>
 
 namespace umbilic {
 
@@ -66,27 +62,15 @@ void add(const BezierPatch& patch, const SystemRoots& roots, ProjectedPolyhedron
 ProjectedPolyhedronUmbilics find_umbilics_by_projected_polyhedron(const NurbsSurface& surface,
                                                                   const ProjectedPolyhedronUmbilicOptions& options,
                                                                   const Progress& progress) {
-    if (!(options.tolerance >= 1e-14 && options.tolerance < 1.0))
-        throw InvalidInput("umbilics by projected polyhedron: the tolerance must lie between 1e-14 and 1");
-    if (options.boxes_per_patch < 1)
-        throw InvalidInput("umbilics by projected polyhedron: boxes_per_patch must be at least 1");
+    const ProjectedPolyhedronOptions limits =
+        patch_limits("umbilics by projected polyhedron", options.tolerance, options.boxes_per_patch);
     const BezierPatches patches = bezier_patches(surface);
     const InputRounding input = input_rounding(surface);
-    ProjectedPolyhedronOptions limits;
-    limits.tolerance = options.tolerance;
-    limits.boxes = options.boxes_per_patch;
-    std::vector<SystemRoots> found(patches.patches.size());
-    std::atomic<std::size_t> done{0};
-    tbb::parallel_for(std::size_t(0), found.size(), [&](std::size_t k) {
-        const auto fraction = [&] { return static_cast<double>(done) / static_cast<double>(found.size()); };
-        // Patches end in any order, so the fraction is counted in patches; within one it stands still.
-        const Progress within = progress.part(fraction(), fraction());
-        within.check();
+    const auto solve = [&](std::size_t k, const Progress& within) {
         const std::vector<MultivariatePolynomial> system = system_of(patches.patches[k], input, options.system);
-        if (!system.empty()) found[k] = solve_projected_polyhedron(system, limits, within);
-        ++done;
-        progress.report(fraction(), "umbilics");
-    });
+        return system.empty() ? SystemRoots() : solve_projected_polyhedron(system, limits, within);
+    };
+    const auto found = on_patches<SystemRoots>(patches.patches.size(), "umbilics", progress, solve);
 
     ProjectedPolyhedronUmbilics result;
     for (std::size_t k = 0; k < found.size(); ++k) add(patches.patches[k], found[k], result);

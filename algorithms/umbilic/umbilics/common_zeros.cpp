@@ -36,10 +36,6 @@ constexpr double least_variation = 0.01;
 /// Boxes between two looks at the progress handle.
 constexpr long boxes_per_check = 4096;
 
-Interval range(const Array& values) {
-    return {values.minCoeff(), values.maxCoeff()};
-}
-
 bool inside_unit(const Vector2& at, double radius) {
     return at.minCoeff() - radius >= 0.0 && at.maxCoeff() + radius <= 1.0;
 }
@@ -206,7 +202,7 @@ CommonZeroSearch::Outcome CommonZeroSearch::examine(const Node& node, const doub
     const CoefficientBound bound[2] = {node.bounds.a, node.bounds.b};
     bool vanishes[2], excluded = false;
     for (int k = 0; k < 2; ++k) {
-        const Interval values = range(Array(polynomial[k], size));
+        const Interval values = coefficient_range(polynomial[k], size);
         magnitude_[k] = values.magnitude();
         vanishes[k] = magnitude_[k] <= zero_factor * bound[k].input;
         excluded = excluded || (!vanishes[k] && values.mignitude() > bound[k].input);
@@ -278,21 +274,23 @@ std::optional<double> CommonZeroSearch::contraction(const double* coefficients, 
                                                     const Matrix2& y) {
     const int size = shape_.size();
     const Array a(coefficients, size), b(coefficients + size, size);
-    const double a_size = a.abs().maxCoeff(), b_size = b.abs().maxCoeff();
-    double errors[2];
+    const double a_size = coefficient_range(coefficients, size).magnitude();
+    const double b_size = coefficient_range(coefficients + size, size).magnitude();
+    double errors[2], sizes[2];
     for (int k = 0; k < 2; ++k) {
         Eigen::Map<Eigen::ArrayXd> g(combined_.data() + k * size, size);
         g = y(k, 0) * a + y(k, 1) * b;
         errors[k] = (std::abs(y(k, 0)) * (bounds.a.input + 3 * unit_roundoff * a_size) +
                      std::abs(y(k, 1)) * (bounds.b.input + 3 * unit_roundoff * b_size)) *
                     bound_slack;
-        if (range(Array(g.data(), size)).mignitude() > errors[k]) return std::nullopt;
+        const Interval values = coefficient_range(g.data(), size);
+        sizes[k] = values.magnitude();
+        if (values.mignitude() > errors[k]) return std::nullopt;
     }
     double norm = 0.0;
     for (int k = 0; k < 2; ++k) {
         const double* g = combined_.data() + k * size;
-        const double difference_error =
-            (2 * errors[k] + 4 * unit_roundoff * Array(g, size).abs().maxCoeff()) * bound_slack;
+        const double difference_error = (2 * errors[k] + 4 * unit_roundoff * sizes[k]) * bound_slack;
         const std::array<Interval, 2> d = difference_hulls(shape_, g);
         const Interval u = Interval(shape_.p) * inflated(d[0], difference_error);
         const Interval v = Interval(shape_.q) * inflated(d[1], difference_error);
