@@ -121,9 +121,28 @@ TEST_F(PointsCommand, PointsAgainstPointsAndNotAModelAgainstPoints) {
     const CommandResult wrong = run_umbilic({"compare", original, model_path("bottle.step")});
     EXPECT_EQ(wrong.status, 3);
     EXPECT_TRUE(is_one_line(wrong, "exchange"));
-    const CommandResult method = run_umbilic({"match", model_path("bottle.step"), suspect, "--method", "umbilics"});
-    EXPECT_EQ(method.status, 3);
-    EXPECT_TRUE(is_one_line(method, "--method auto"));
+}
+
+TEST_F(PointsCommand, MethodsThatSayNothingOfTheSuspectAreWrongUse) {
+    const std::string scan = make_scan("scan.ply", bottle(), {.points = 1500, .noise = 3e-4}, {}, 28);
+    for (const char* const command : {"match", "compare"})
+        for (const char* const method : {"umbilics", "umbilics-lines", "umbilics-kh", "moments", "analytic", "kh"}) {
+            const CommandResult run = run_umbilic({command, model_path("bottle.step"), scan, "--method", method});
+            EXPECT_EQ(run.status, 2) << method << ": " << run.error;
+            EXPECT_TRUE(is_one_line(run, "scan.ply")) << run.error;
+            EXPECT_NE(run.error.find("method " + std::string(method)), std::string::npos) << run.error;
+        }
+    const std::string model = model_path("bottle.step");
+    const CommandResult points = run_umbilic({"match", model, model, "--method", "points"});
+    EXPECT_EQ(points.status, 2);
+    EXPECT_TRUE(is_one_line(points, "measured points")) << points.error;
+    // Principal frames of single points are what both words mean there.
+    const json by_points =
+        result_of(run_umbilic({"match", model, scan, "--quiet", "--json", "-", "--method", "points"}));
+    const json by_curvature =
+        result_of(run_umbilic({"match", model, scan, "--quiet", "--json", "-", "--method", "curvature"}));
+    EXPECT_EQ(by_points.at("alignment"), by_curvature.at("alignment"));
+    EXPECT_EQ(by_points.at("alignment").at("method"), "points");
 }
 
 TEST_F(PointsCommand, LargeCloudsAreThinnedOutAndItIsSaid) {

@@ -132,7 +132,10 @@ TEST_F(MatchPoints, RefusesWhatItCannotUse) {
     EXPECT_THROW(prepare(line), InvalidInput);
     const PointCloud cloud = scan(model, 500, 1.0, 0.0, {}, 15);
     const PreparedPoints suspect = prepare(cloud);
-    EXPECT_THROW(match(original, suspect, {.method = MethodChoice::umbilics}), Unsupported);
+    for (const MethodChoice method : {MethodChoice::umbilics, MethodChoice::umbilic_lines, MethodChoice::umbilic_kh,
+                                      MethodChoice::moments, MethodChoice::analytic, MethodChoice::kh})
+        EXPECT_THROW(match(original, suspect, {.method = method}), Unsupported);
+    EXPECT_THROW(match(original, original, {.method = MethodChoice::points}), Unsupported);
     EXPECT_THROW(match(original, suspect, {.tolerance = -1.0}), InvalidInput);
     Progress progress;
     progress.cancel();

@@ -14,6 +14,7 @@
 #include <umbilic/core/errors.h>
 #include <umbilic/matching/by_given_pairs.h>
 #include <umbilic/matching/by_principal_frame.h>
+#include <umbilic/matching/choice_words.h>
 #include <umbilic/matching/pose_distance.h>
 #include <umbilic/matching/quadric.h>
 #include <umbilic/matching/refine.h>
@@ -340,15 +341,6 @@ private:
     std::vector<WeightedPoint> few_, some_, many_;
 };
 
-void check_method(const MatchOptions& options) {
-    if (options.method == MethodChoice::umbilics || options.method == MethodChoice::umbilic_lines ||
-        options.method == MethodChoice::umbilic_kh || options.method == MethodChoice::moments ||
-        options.method == MethodChoice::analytic)
-        throw Unsupported(
-            "match: points have neither umbilics nor moments nor analytic faces of their own; use --method auto, or "
-            "fit a surface first (umbilic fit)");
-}
-
 Alignment global_only(Alignment alignment, const MatchOptions& options) {
     if (options.scope == ScopeChoice::global && alignment.status == AlignmentStatus::found &&
         alignment.scope == MatchScope::partial) {
@@ -360,10 +352,33 @@ Alignment global_only(Alignment alignment, const MatchOptions& options) {
 
 }  // namespace
 
+void check_method(MethodChoice method, bool measured_suspect) {
+    const std::string word = word_of(method_words, method);
+    switch (method) {
+        case MethodChoice::automatic:
+        case MethodChoice::curvature:
+            return;
+        case MethodChoice::points:
+            if (!measured_suspect)
+                throw Unsupported("the method points needs measured points as the suspect; use auto");
+            return;
+        case MethodChoice::analytic:
+        case MethodChoice::umbilics:
+        case MethodChoice::umbilic_lines:
+        case MethodChoice::umbilic_kh:
+        case MethodChoice::moments:
+        case MethodChoice::kh:
+            if (measured_suspect)
+                throw Unsupported("the method " + word +
+                                  " needs surfaces, and the suspect holds measured points; use auto, or fit a surface "
+                                  "first (umbilic fit)");
+    }
+}
+
 Alignment match(const PreparedModel& original, const PreparedPoints& suspect, const MatchOptions& options,
                 const Progress& progress) {
     check_options(options);
-    check_method(options);
+    check_method(options.method, true);
     if (original.table.entries().empty())
         throw InvalidInput(original.model.source.path + ": no face has a regular point");
     const Ground ground(original);
@@ -379,7 +394,7 @@ Alignment match(const PreparedModel& original, const PreparedPoints& suspect, co
 Alignment match(const PreparedPoints& original, const PreparedPoints& suspect, const MatchOptions& options,
                 const Progress& progress) {
     check_options(options);
-    check_method(options);
+    check_method(options.method, true);
     const TableGround ground(original.table);
     const Original side{.exact = ground,
                         .table = original.table,
