@@ -15,6 +15,7 @@
 #include <umbilic/matching/by_given_pairs.h>
 #include <umbilic/matching/by_principal_frame.h>
 #include <umbilic/matching/choice_words.h>
+#include <umbilic/matching/passed_samples.h>
 #include <umbilic/matching/pose_distance.h>
 #include <umbilic/matching/quadric.h>
 #include <umbilic/matching/refine.h>
@@ -207,15 +208,10 @@ private:
     }
 
     /// Of the original's samples from the suspect, mm of the original.
-    std::vector<double> original_distances(const Pose& pose, double limit) const {
-        const TableGround ground(suspect_.table);
-        const SimilarityTransform suspect_original = pose.original_suspect.inverse();
-        const double scale = pose.original_suspect.scale;
-        std::vector<double> distances(original_.samples.size());
-        tbb::parallel_for(std::size_t{0}, distances.size(), [&](std::size_t i) {
-            const auto foot = ground.foot(suspect_original.apply(original_.samples[i].curvature.point), limit / scale);
-            distances[i] = foot && !foot->at_border ? foot->distance * scale : INFINITY;
-        });
+    std::vector<double> original_distances(const Pose& pose) const {
+        std::vector<double> distances;
+        for (const PassedSample& passed : passed_samples(original_.samples, suspect_, pose.original_suspect))
+            distances.push_back(passed.past_border ? INFINITY : passed.distance);
         return distances;
     }
 
@@ -260,8 +256,7 @@ private:
         result.tolerance = tolerance(scale);
         const Coverage suspect =
             coverage(suspect_.samples, suspect_distances(best, result.tolerance), result.tolerance);
-        const Coverage original =
-            coverage(original_.samples, original_distances(best, result.tolerance), result.tolerance);
+        const Coverage original = coverage(original_.samples, original_distances(best), result.tolerance);
         std::vector<const Pose*> equals;
         for (std::size_t i = 1; i < poses.size() && result.runners_up.size() < most_runners_up; ++i) {
             if (!distance_.different(best.original_suspect, poses[i].original_suspect)) continue;

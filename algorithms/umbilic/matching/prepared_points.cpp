@@ -108,6 +108,7 @@ PreparedPoints prepare(const PointCloud& cloud, const PointFeatureOptions& optio
             std::move(samples),
             std::move(jets),
             std::move(table),
+            cloud.is_mesh() ? std::make_unique<const TriangleTree>(cloud) : nullptr,
             area,
             length,
             jet_options.radius.value_or(0.0),
