@@ -93,11 +93,12 @@ public:
           suspect_(suspect),
           options_(options),
           rough_(original.table),
-          distance_(suspect.samples),
+          bulk_(bulk_samples(suspect)),
+          distance_(bulk_),
           pairs_(fit_given_pairs(options)),
-          few_(spread(suspect.samples, rough_points)),
-          some_(spread(suspect.samples, near_points)),
-          many_(spread(suspect.samples, exact_points)) {}
+          few_(spread(bulk_, rough_points)),
+          some_(spread(bulk_, near_points)),
+          many_(spread(bulk_, exact_points)) {}
 
     Alignment run(const Progress& progress) {
         std::vector<Pose> poses = proposed(progress.part(0.0, 0.4));
@@ -231,7 +232,7 @@ private:
         if (!wholes && weakest * PointDecision::sliding * scale * suspect_.length < tolerance(scale))
             return "the points can slide along the original within the tolerance, so that the pose is not determined";
         std::vector<Vector3> points;
-        for (const AreaSample& sample : suspect_.samples) points.push_back(sample.curvature.point);
+        for (const AreaSample& sample : bulk_) points.push_back(sample.curvature.point);
         const double least = noise(scale) + FitTolerance::reapproximated * suspect_.length;
         if (departure_from_quadric(points) < PointDecision::departure * least)
             return "the points differ from a quadric by no more than their noise, and so fit many shapes";
@@ -331,6 +332,7 @@ private:
     const PreparedPoints& suspect_;
     const MatchOptions& options_;
     TableGround rough_;
+    std::vector<AreaSample> bulk_;
     PoseDistance distance_;
     std::vector<ConsistentPointFit> pairs_;
     std::vector<WeightedPoint> few_, some_, many_;

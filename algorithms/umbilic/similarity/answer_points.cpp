@@ -27,7 +27,9 @@ Answer answer(const PreparedPoints& suspect, const Alignment& alignment, const A
 
     const double tolerance = find_tolerance(assessment.tolerances, "distance").value;
     const double noise = find_tolerance(assessment.tolerances, "noise").value;
-    const BoundingBox box = suspect.cloud.box();
+    BoundingBox box;
+    for (const Vector3& p : suspect.cloud.points)
+        if (suspect.bulk.holds(p)) box.add(p);
     const double extent = alignment.original_suspect.scale * box.diagonal();
     const double pose_tolerance = std::max(tolerance, scale_certainty * alignment.scale_deviation * extent);
     const SimilarityTransform pose = plainest_pose(alignment, box, pose_tolerance);
