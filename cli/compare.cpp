@@ -63,8 +63,7 @@ int run_compare(const Session& session, CompareWords& words) {
     const Progress& progress = session.progress;
     ReadOptions read;
     read.display_meshes = with_report;
-    const auto pair = load_pair(session, words.match.original, words.match.suspect, read, options.features,
-                                options.points, progress.part(0.0, 0.4));
+    const auto pair = load_pair(session, words.match, read, progress.part(0.0, 0.4));
     const PreparedShape original = pair->original.prepared(), suspect = pair->suspect.prepared();
     const Comparison comparison = compare(original, suspect, options, progress.part(0.4, with_report ? 0.7 : 1.0));
     const Json result = compare_json(original, suspect, options, comparison, pair->timing);

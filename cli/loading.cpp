@@ -62,9 +62,10 @@ PointCloud load_points(const Session& session, const std::string& path, std::siz
     return cloud;
 }
 
-std::unique_ptr<LoadedPair> load_pair(const Session& session, const std::string& original, const std::string& suspect,
-                                      const ReadOptions& read, const FeatureOptions& features,
-                                      const PointFeatureOptions& points, const Progress& progress) {
+std::unique_ptr<LoadedPair> load_pair(const Session& session, const MatchWords& words, const ReadOptions& read,
+                                      const Progress& progress) {
+    const FeatureOptions& features = words.options.features;
+    const PointFeatureOptions& points = words.options.points;
     auto pair = std::make_unique<LoadedPair>();
     const auto start = std::chrono::steady_clock::now();
     const Progress reading = progress.part(0.0, 0.4);
@@ -77,14 +78,15 @@ std::unique_ptr<LoadedPair> load_pair(const Session& session, const std::string&
         }
     };
     // Reading waits for a child process, so it gets a thread of its own whatever --threads says.
-    std::future<void> second = std::async(std::launch::async, [&] { read_into(pair->suspect, suspect); });
-    read_into(pair->original, original);
+    std::future<void> second = std::async(std::launch::async, [&] { read_into(pair->suspect, words.suspect); });
+    read_into(pair->original, words.original);
     second.get();
     pair->timing.emplace_back("read", seconds_since(start));
     for (const LoadedShape* shape : {&pair->original, &pair->suspect}) {
         print_warnings(session, shape->file.model);
         print_warnings(session, shape->cloud);
     }
+    check_method_of(words, !pair->suspect.cloud.points.empty());
 
     const auto read_end = std::chrono::steady_clock::now();
     const Progress preparing = progress.part(0.4, 1.0);

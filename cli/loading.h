@@ -8,6 +8,7 @@
 #include <occ_adapter/read_file.h>
 #include <umbilic/matching/prepared_shape.h>
 
+#include <cli/match_options.h>
 #include <cli/session.h>
 #include <report/json.h>
 
@@ -36,10 +37,10 @@ struct LoadedPair {
     Timing timing;
 };
 
-/// Errors name the file; if both fail, the original's is thrown.
-std::unique_ptr<LoadedPair> load_pair(const Session& session, const std::string& original, const std::string& suspect,
-                                      const ReadOptions& read, const FeatureOptions& features,
-                                      const PointFeatureOptions& points, const Progress& progress);
+/// Errors name the file; if both fail, the original's is thrown. Throws WrongUse, before anything is computed, for a
+/// --method that says nothing of the suspect.
+std::unique_ptr<LoadedPair> load_pair(const Session& session, const MatchWords& words, const ReadOptions& read,
+                                      const Progress& progress);
 
 /// Prints stages and seconds on standard error if the user wants to know.
 void print_timing(const Session& session, const Timing& timing);

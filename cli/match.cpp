@@ -20,8 +20,7 @@ int run_match(const Session& session, MatchWords& words) {
     set_seed(words, session.seed);
     const Progress& progress = session.progress;
     const CompareOptions& options = words.options;
-    const auto pair = load_pair(session, words.original, words.suspect, {}, options.features, options.points,
-                                progress.part(0.0, 0.5));
+    const auto pair = load_pair(session, words, {}, progress.part(0.0, 0.5));
     const PreparedShape original = pair->original.prepared(), suspect = pair->suspect.prepared();
     const auto start = std::chrono::steady_clock::now();
     const Alignment alignment = match(original, suspect, options.match, progress.part(0.5, 1.0));

@@ -4,9 +4,12 @@
 #include <charconv>
 #include <cmath>
 
+#include <cli/exit_status.h>
 #include <cli/finite_numbers.h>
 #include <cli/given_poses.h>
+#include <umbilic/core/errors.h>
 #include <umbilic/matching/choice_words.h>
+#include <umbilic/matching/match_points.h>
 
 namespace umbilic {
 
@@ -51,7 +54,7 @@ void add_match_options(CLI::App& subcommand, MatchWords& words) {
     subcommand
         .add_option("--method", words.options.match.method,
                     "How poses are proposed: auto, analytic, umbilics, umbilics-lines, umbilics-kh, moments, "
-                    "curvature, kh or points")
+                    "curvature, kh or points (of measured points: auto, curvature or points)")
         ->transform(CLI::CheckedTransformer(method_words).description(""))
         ->type_name("METHOD")
         ->group(group);
@@ -124,6 +127,14 @@ void add_match_options(CLI::App& subcommand, MatchWords& words) {
     add("--umbilic_recognition", words.options.features.umbilics.recognition,
         "Deviation from a plane or sphere, relative to a face's size, within which it is umbilic everywhere",
         finite_number(true));
+}
+
+void check_method_of(const MatchWords& words, bool measured_suspect) {
+    try {
+        check_method(words.options.match.method, measured_suspect);
+    } catch (const Unsupported& error) {
+        throw WrongUse(words.suspect + ": " + error.what());
+    }
 }
 
 void set_seed(MatchWords& words, std::uint64_t seed) {

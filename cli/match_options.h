@@ -21,6 +21,10 @@ struct MatchWords {
 /// Adds the two files and every option that concerns the pose.
 void add_match_options(CLI::App& subcommand, MatchWords& words);
 
+/// Throws WrongUse, naming the suspect's file, if --method says nothing of a suspect that is measured points, or of one
+/// that is not.
+void check_method_of(const MatchWords& words, bool measured_suspect);
+
 /// Shifts every sampling.
 void set_seed(MatchWords& words, std::uint64_t seed);
 

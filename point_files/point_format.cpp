@@ -64,13 +64,14 @@ bool is_table(std::string_view text) {
 
 std::optional<PointFormat> point_format(std::string_view beginning, std::uint64_t bytes) {
     if (beginning.starts_with("ply\n") || beginning.starts_with("ply\r")) return PointFormat::ply;
-    if (is_cad_text(beginning)) return {};
-    // Binary files may begin with the word solid too, so their size is asked first.
+    // Binary STL may begin with anything, the word solid or what looks like IGES included, so its size is asked first.
+    // No text has it: there the number of triangles would be four characters, and the file above a gigabyte.
     const bool has_header = beginning.size() >= stl_header_bytes;
     if (has_header) {
         const std::uint64_t triangles = little_endian(beginning.substr(stl_count_at, 4));
         if (bytes == stl_header_bytes + triangles * stl_triangle_bytes) return PointFormat::stl_binary;
     }
+    if (is_cad_text(beginning)) return {};
     std::string_view start = beginning.substr(std::min(beginning.find_first_not_of(" \t\r\n"), beginning.size()));
     const bool solid = start.starts_with("solid");
     if (solid && beginning.find("facet") != std::string_view::npos) return PointFormat::stl_text;

@@ -253,8 +253,8 @@ def compare(
     Either is what `read` takes; measured points as the original need points as the suspect. `seconds` limits the
     reading of each model. Options, all optional, named as on the command line:
 
-    method            "auto", "analytic", "umbilics", "moments" or "curvature", "points" of measured points, and
-                      the thesis's "umbilics-lines", "umbilics-kh" and "kh"
+    method            "auto", "analytic", "umbilics", "moments" or "curvature", and the thesis's "umbilics-lines",
+                      "umbilics-kh" and "kh"; of measured points "auto", "curvature" or "points", which are the same
     scale             "auto", "fixed" (it is 1) or (low, high)
     scale_search      "golden" (section) or "brent": how "kh" searches a scale that is not fixed
     kh_solver         "direct", or the thesis's "auxiliary" or "approximated": how "kh" and "umbilics-kh" find points

@@ -121,9 +121,28 @@ TEST_F(PointsCommand, PointsAgainstPointsAndNotAModelAgainstPoints) {
     const CommandResult wrong = run_umbilic({"compare", original, model_path("bottle.step")});
     EXPECT_EQ(wrong.status, 3);
     EXPECT_TRUE(is_one_line(wrong, "exchange"));
-    const CommandResult method = run_umbilic({"match", model_path("bottle.step"), suspect, "--method", "umbilics"});
-    EXPECT_EQ(method.status, 3);
-    EXPECT_TRUE(is_one_line(method, "--method auto"));
+}
+
+TEST_F(PointsCommand, MethodsThatSayNothingOfTheSuspectAreWrongUse) {
+    const std::string scan = make_scan("scan.ply", bottle(), {.points = 1500, .noise = 3e-4}, {}, 28);
+    for (const char* const command : {"match", "compare"})
+        for (const char* const method : {"umbilics", "umbilics-lines", "umbilics-kh", "moments", "analytic", "kh"}) {
+            const CommandResult run = run_umbilic({command, model_path("bottle.step"), scan, "--method", method});
+            EXPECT_EQ(run.status, 2) << method << ": " << run.error;
+            EXPECT_TRUE(is_one_line(run, "scan.ply")) << run.error;
+            EXPECT_NE(run.error.find("method " + std::string(method)), std::string::npos) << run.error;
+        }
+    const std::string model = model_path("bottle.step");
+    const CommandResult points = run_umbilic({"match", model, model, "--method", "points"});
+    EXPECT_EQ(points.status, 2);
+    EXPECT_TRUE(is_one_line(points, "measured points")) << points.error;
+    // Principal frames of single points are what both words mean there.
+    const json by_points =
+        result_of(run_umbilic({"match", model, scan, "--quiet", "--json", "-", "--method", "points"}));
+    const json by_curvature =
+        result_of(run_umbilic({"match", model, scan, "--quiet", "--json", "-", "--method", "curvature"}));
+    EXPECT_EQ(by_points.at("alignment"), by_curvature.at("alignment"));
+    EXPECT_EQ(by_points.at("alignment").at("method"), "points");
 }
 
 TEST_F(PointsCommand, LargeCloudsAreThinnedOutAndItIsSaid) {
@@ -180,6 +199,48 @@ TEST_F(PointsCommand, DegenerateTrianglesAndPointsThatAreNotFiniteAreLeftOut) {
     EXPECT_EQ(result.at("inputs").at("suspect").at("not_finite"), 1);
     EXPECT_EQ(result.at("inputs").at("suspect").at("degenerate_triangles"), 2);
     EXPECT_NE(result.at("alignment").at("status"), "not found");
+}
+
+/// Meshes of CAD systems have vertices where the curvature asks for them, and none inside strips and planes.
+TEST_F(PointsCommand, CoarseAndFineMeshesOfAModelAreInTheSameRelationToIt) {
+    struct Case {
+        double deflection, part;
+        const char* answer;
+    };
+    for (const Case& c : {Case{5e-3, 1.0, "same"}, Case{1e-3, 1.0, "same"}, Case{2e-4, 1.0, "same"},
+                          Case{5e-3, 0.5, "piece"}, Case{2e-4, 0.5, "piece"}}) {
+        PointCloud mesh;
+        const ReadResult file =
+            read_file(model_path("bottle.step"), {.display_meshes = true, .display_deflection = c.deflection});
+        const double top = file.model.box.low.z() + c.part * (file.model.box.high.z() - file.model.box.low.z());
+        double area = 0.0;
+        for (const DisplayMesh& face : file.meshes) {
+            const int first = static_cast<int>(mesh.points.size());
+            mesh.points.insert(mesh.points.end(), face.points.begin(), face.points.end());
+            for (const auto& [a, b, d] : face.triangles)
+                if (std::max({face.points[a].z(), face.points[b].z(), face.points[d].z()}) <= top + 1e-6) {
+                    mesh.triangles.push_back({first + a, first + b, first + d});
+                    area += triangle_area(mesh, mesh.triangles.back());
+                }
+        }
+        std::vector<char> used(mesh.points.size(), 0);
+        for (const auto& triangle : mesh.triangles)
+            for (const int corner : triangle) used[corner] = 1;
+        for (std::size_t i = 0; i < used.size(); ++i)
+            if (!used[i]) mesh.points[i].setConstant(std::numeric_limits<double>::quiet_NaN());
+        const std::string path = make_file("mesh.ply", ply_text(mesh));
+        const json result =
+            result_of(run_umbilic({"compare", model_path("bottle.step"), path, "--quiet", "--json", "-"}));
+        EXPECT_EQ(result.at("answer").at("class"), c.answer) << c.deflection << ' ' << result.at("answer").at("text");
+        EXPECT_EQ(result.at("alignment").at("status"), "found") << result.at("alignment").at("why");
+        EXPECT_GT(result.at("coverage").at("suspect_area").get<double>(), 0.999);
+        EXPECT_NEAR(result.at("coverage").at("original_area").get<double>(), area / file.model.area, 0.01)
+            << c.deflection;
+        // What is left out of account is said, and is no more than what the mesh was made with.
+        const double chord = result.at("parameters").at("chord").at("value");
+        EXPECT_GT(chord, 0.02 * c.deflection * file.model.box.diagonal());
+        EXPECT_LT(chord, 3.0 * c.deflection * file.model.box.diagonal());
+    }
 }
 
 TEST_F(PointsCommand, FitWritesSurfaceResidualsAndReport) {

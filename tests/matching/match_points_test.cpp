@@ -90,6 +90,31 @@ TEST_F(MatchPoints, MeshesAndPointsAgainstPoints) {
     EXPECT_LT(pose_error(mesh, on_points.original_suspect, truth, model.size()), 1e-2);
 }
 
+TEST_F(MatchPoints, AFewForeignPointsFarAwayChangeNothing) {
+    const SimilarityTransform truth = support::random_similarity(9, 1.6, false);
+    const PointCloud piece = scan(model, 2000, 0.6, 3e-4, truth, 16);
+    const PreparedPoints alone = prepare(piece);
+    for (const double diagonals : {1.0, 5.0, 20.0, 1000.0}) {
+        PointCloud cloud = piece;
+        const Vector3 away(diagonals * piece.box().diagonal(), 0.0, 0.0);
+        // A clump of three per cent, and one point by itself on the other side.
+        for (const Vector3& p : support::sphere_cloud(36, 0.1, 0.0, 5).points) cloud.points.push_back(p + away);
+        cloud.points.push_back(-2.0 * away);
+        const PreparedPoints suspect = prepare(cloud);
+        EXPECT_NEAR(suspect.noise, alone.noise, 0.1 * alone.noise) << diagonals;
+        const Alignment alignment = match(original, suspect, {.mirror = MirrorChoice::never});
+        ASSERT_EQ(alignment.status, AlignmentStatus::found) << diagonals << ' ' << alignment.why;
+        EXPECT_LT(pose_error(piece, alignment.original_suspect, truth, model.size()), 1e-2);
+        EXPECT_LT(alignment.suspect_coverage, 0.98) << diagonals;
+        if (diagonals >= 5.0) EXPECT_NEAR(suspect.length, alone.length, 1e-6 * alone.length);
+    }
+    // What lies apart is counted, not forgotten: with 10 % of it no pose lays the points on the original.
+    PointCloud cloud = piece;
+    for (const Vector3& p : support::sphere_cloud(140, 0.1, 0.0, 6).points)
+        cloud.points.push_back(p + Vector3(100, 0, 0));
+    EXPECT_EQ(match(original, prepare(cloud), {.mirror = MirrorChoice::never}).status, AlignmentStatus::not_found);
+}
+
 TEST_F(MatchPoints, OtherDesignsAreNotFound) {
     for (const unsigned seed : {50u, 51u, 52u}) {
         const Model other = support::model_of({support::smooth_bicubic(8, seed, 0.3)});
@@ -132,7 +157,10 @@ TEST_F(MatchPoints, RefusesWhatItCannotUse) {
     EXPECT_THROW(prepare(line), InvalidInput);
     const PointCloud cloud = scan(model, 500, 1.0, 0.0, {}, 15);
     const PreparedPoints suspect = prepare(cloud);
-    EXPECT_THROW(match(original, suspect, {.method = MethodChoice::umbilics}), Unsupported);
+    for (const MethodChoice method : {MethodChoice::umbilics, MethodChoice::umbilic_lines, MethodChoice::umbilic_kh,
+                                      MethodChoice::moments, MethodChoice::analytic, MethodChoice::kh})
+        EXPECT_THROW(match(original, suspect, {.method = method}), Unsupported);
+    EXPECT_THROW(match(original, original, {.method = MethodChoice::points}), Unsupported);
     EXPECT_THROW(match(original, suspect, {.tolerance = -1.0}), InvalidInput);
     Progress progress;
     progress.cancel();

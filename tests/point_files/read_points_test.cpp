@@ -136,6 +136,10 @@ TEST(ReadPoints, StlAndObj) {
 TEST(ReadPoints, ContentDecidesNotTheEnding) {
     EXPECT_EQ(read("points.stl", "1 2 3\n4 5 6\n").layout, "table");
     EXPECT_EQ(read("mesh.xyz", binary_stl(1, 1)).layout, "STL binary");
+    // FreeCAD's header has an S where IGES has the letter of its start section.
+    std::string freecad = binary_stl(1, 1);
+    for (std::size_t i = 0; i < 80; ++i) freecad[i] = "MESH-"[i % 5];
+    EXPECT_EQ(read("freecad.stl", freecad).layout, "STL binary");
     const MadeFile step("fake.xyz", "ISO-10303-21;\nHEADER;\n");
     EXPECT_FALSE(holds_points(step.path()));
     EXPECT_FALSE(holds_points(std::string(UMBILIC_MODELS_DIR) + "/bottle.step"));

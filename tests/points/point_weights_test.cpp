@@ -24,5 +24,14 @@ TEST(PointWeights, SumToTheArea) {
     EXPECT_NEAR(std::accumulate(on_plane.begin(), on_plane.end(), 0.0), 4.0, 1e-12);
 }
 
+TEST(PointWeights, APointThatLiesApartStandsForFewOthers) {
+    PointCloud sphere = support::sphere_cloud(4000, 2.0, 0.0, 3);
+    sphere.points.emplace_back(1e6, 0.0, 0.0);
+    const std::vector<double> weights = point_weights(sphere, Neighbours(sphere.points));
+    const double area = 16.0 * std::numbers::pi;
+    EXPECT_LT(weights.back(), 15.0 * area / 4000.0);
+    EXPECT_NEAR(std::accumulate(weights.begin(), weights.end(), 0.0), area, 0.05 * area);
+}
+
 }  // namespace
 }  // namespace umbilic

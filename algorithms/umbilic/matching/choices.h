@@ -4,8 +4,9 @@
 namespace umbilic {
 
 /// automatic: given pairs or pose, analytic faces, umbilics, moments, curvature, in this order, until a pose convinces;
-/// of measured points their local jets. points: these alone. On request only, the thesis's own methods: kh, points of
-/// equal Gaussian and mean curvature; umbilic_lines and umbilic_kh, methods 1 and 2 of its 4.7.1.
+/// of measured points their local jets, which is also what points and curvature mean there. On request only, the
+/// thesis's own methods: kh, points of equal Gaussian and mean curvature; umbilic_lines and umbilic_kh, methods 1 and 2
+/// of its 4.7.1.
 enum class MethodChoice { automatic, analytic, umbilics, umbilic_lines, umbilic_kh, moments, curvature, kh, points };
 /// How the scale is searched where points of equal curvature are compared at one scale after the other.
 enum class ScaleSearch { golden_section, brent };

@@ -17,6 +17,7 @@
 #include <umbilic/matching/copies.h>
 #include <umbilic/matching/decision.h>
 #include <umbilic/matching/fix_by_borders.h>
+#include <umbilic/matching/match_points.h>
 #include <umbilic/matching/pose_search.h>
 
 namespace umbilic {
@@ -134,8 +135,7 @@ void check_options(const MatchOptions& options) {
 Alignment match(const PreparedModel& original, const PreparedModel& suspect, const MatchOptions& options,
                 const Progress& progress) {
     check_options(options);
-    if (options.method == MethodChoice::points)
-        throw Unsupported("match: the method points needs a file of points as the suspect; use --method auto");
+    check_method(options.method, false);
     PoseSearch search(original, suspect, options);
     std::string tried;
     const auto consider = [&](const Proposals& proposals, int keep, double error, const Progress& part) {

@@ -14,6 +14,8 @@
 #include <umbilic/core/errors.h>
 #include <umbilic/matching/by_given_pairs.h>
 #include <umbilic/matching/by_principal_frame.h>
+#include <umbilic/matching/choice_words.h>
+#include <umbilic/matching/passed_samples.h>
 #include <umbilic/matching/pose_distance.h>
 #include <umbilic/matching/quadric.h>
 #include <umbilic/matching/refine.h>
@@ -91,11 +93,12 @@ public:
           suspect_(suspect),
           options_(options),
           rough_(original.table),
-          distance_(suspect.samples),
+          bulk_(bulk_samples(suspect)),
+          distance_(bulk_),
           pairs_(fit_given_pairs(options)),
-          few_(spread(suspect.samples, rough_points)),
-          some_(spread(suspect.samples, near_points)),
-          many_(spread(suspect.samples, exact_points)) {}
+          few_(spread(bulk_, rough_points)),
+          some_(spread(bulk_, near_points)),
+          many_(spread(bulk_, exact_points)) {}
 
     Alignment run(const Progress& progress) {
         std::vector<Pose> poses = proposed(progress.part(0.0, 0.4));
@@ -206,15 +209,10 @@ private:
     }
 
     /// Of the original's samples from the suspect, mm of the original.
-    std::vector<double> original_distances(const Pose& pose, double limit) const {
-        const TableGround ground(suspect_.table);
-        const SimilarityTransform suspect_original = pose.original_suspect.inverse();
-        const double scale = pose.original_suspect.scale;
-        std::vector<double> distances(original_.samples.size());
-        tbb::parallel_for(std::size_t{0}, distances.size(), [&](std::size_t i) {
-            const auto foot = ground.foot(suspect_original.apply(original_.samples[i].curvature.point), limit / scale);
-            distances[i] = foot && !foot->at_border ? foot->distance * scale : INFINITY;
-        });
+    std::vector<double> original_distances(const Pose& pose) const {
+        std::vector<double> distances;
+        for (const PassedSample& passed : passed_samples(original_.samples, suspect_, pose.original_suspect))
+            distances.push_back(passed.past_border ? INFINITY : passed.distance);
         return distances;
     }
 
@@ -234,7 +232,7 @@ private:
         if (!wholes && weakest * PointDecision::sliding * scale * suspect_.length < tolerance(scale))
             return "the points can slide along the original within the tolerance, so that the pose is not determined";
         std::vector<Vector3> points;
-        for (const AreaSample& sample : suspect_.samples) points.push_back(sample.curvature.point);
+        for (const AreaSample& sample : bulk_) points.push_back(sample.curvature.point);
         const double least = noise(scale) + FitTolerance::reapproximated * suspect_.length;
         if (departure_from_quadric(points) < PointDecision::departure * least)
             return "the points differ from a quadric by no more than their noise, and so fit many shapes";
@@ -259,8 +257,7 @@ private:
         result.tolerance = tolerance(scale);
         const Coverage suspect =
             coverage(suspect_.samples, suspect_distances(best, result.tolerance), result.tolerance);
-        const Coverage original =
-            coverage(original_.samples, original_distances(best, result.tolerance), result.tolerance);
+        const Coverage original = coverage(original_.samples, original_distances(best), result.tolerance);
         std::vector<const Pose*> equals;
         for (std::size_t i = 1; i < poses.size() && result.runners_up.size() < most_runners_up; ++i) {
             if (!distance_.different(best.original_suspect, poses[i].original_suspect)) continue;
@@ -335,19 +332,11 @@ private:
     const PreparedPoints& suspect_;
     const MatchOptions& options_;
     TableGround rough_;
+    std::vector<AreaSample> bulk_;
     PoseDistance distance_;
     std::vector<ConsistentPointFit> pairs_;
     std::vector<WeightedPoint> few_, some_, many_;
 };
-
-void check_method(const MatchOptions& options) {
-    if (options.method == MethodChoice::umbilics || options.method == MethodChoice::umbilic_lines ||
-        options.method == MethodChoice::umbilic_kh || options.method == MethodChoice::moments ||
-        options.method == MethodChoice::analytic)
-        throw Unsupported(
-            "match: points have neither umbilics nor moments nor analytic faces of their own; use --method auto, or "
-            "fit a surface first (umbilic fit)");
-}
 
 Alignment global_only(Alignment alignment, const MatchOptions& options) {
     if (options.scope == ScopeChoice::global && alignment.status == AlignmentStatus::found &&
@@ -360,10 +349,33 @@ Alignment global_only(Alignment alignment, const MatchOptions& options) {
 
 }  // namespace
 
+void check_method(MethodChoice method, bool measured_suspect) {
+    const std::string word = word_of(method_words, method);
+    switch (method) {
+        case MethodChoice::automatic:
+        case MethodChoice::curvature:
+            return;
+        case MethodChoice::points:
+            if (!measured_suspect)
+                throw Unsupported("the method points needs measured points as the suspect; use auto");
+            return;
+        case MethodChoice::analytic:
+        case MethodChoice::umbilics:
+        case MethodChoice::umbilic_lines:
+        case MethodChoice::umbilic_kh:
+        case MethodChoice::moments:
+        case MethodChoice::kh:
+            if (measured_suspect)
+                throw Unsupported("the method " + word +
+                                  " needs surfaces, and the suspect holds measured points; use auto, or fit a surface "
+                                  "first (umbilic fit)");
+    }
+}
+
 Alignment match(const PreparedModel& original, const PreparedPoints& suspect, const MatchOptions& options,
                 const Progress& progress) {
     check_options(options);
-    check_method(options);
+    check_method(options.method, true);
     if (original.table.entries().empty())
         throw InvalidInput(original.model.source.path + ": no face has a regular point");
     const Ground ground(original);
@@ -379,7 +391,7 @@ Alignment match(const PreparedModel& original, const PreparedPoints& suspect, co
 Alignment match(const PreparedPoints& original, const PreparedPoints& suspect, const MatchOptions& options,
                 const Progress& progress) {
     check_options(options);
-    check_method(options);
+    check_method(options.method, true);
     const TableGround ground(original.table);
     const Original side{.exact = ground,
                         .table = original.table,

@@ -23,11 +23,16 @@ struct PointDecision {
     static constexpr double departure = 3.0;
 };
 
+/// Whether a method says something of a suspect. `points` needs measured ones. Of these umbilics, moments, analytic
+/// faces and points of equal curvature (kh) do not: a surface has to be fitted first; `curvature` and `points` are one
+/// there, principal frames of local jets. Throws Unsupported.
+void check_method(MethodChoice method, bool measured_suspect);
+
 /// Finds how a cloud or mesh, the whole or a piece, lies on the original when nothing is known of pose, scale or
 /// handedness (thesis 4.6.2 and 4.8, without fitting a surface first): jets of the cloud with their
 /// principal frames are looked up among the original's samples, the best poses are refined by least squares in the
-/// suspect's unit, and PointDecision tells found from ambiguous and compatible. Method `umbilics` or `moments` throws
-/// Unsupported. Deterministic. Throws InvalidInput for options as match() does; Cancelled.
+/// suspect's unit, and PointDecision tells found from ambiguous and compatible. Deterministic.
+/// Throws InvalidInput for options as match() does, Unsupported as check_method() does; Cancelled.
 Alignment match(const PreparedModel& original, const PreparedPoints& suspect, const MatchOptions& options = {},
                 const Progress& progress = {});
 

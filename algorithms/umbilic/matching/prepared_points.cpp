@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <random>
 
@@ -26,11 +27,10 @@ constexpr double residual_growth = 1.1;
 
 /// The widest radius (mm) over which a polynomial leaves no more than over the narrowest.
 double widest_radius(const PointCloud& cloud, const Neighbours& neighbours, const std::vector<int>& chosen,
-                     const JetOptions& options, const Progress& progress) {
+                     double length, const JetOptions& options, const Progress& progress) {
     std::vector<int> some;
     const std::size_t stride = std::max<std::size_t>(1, chosen.size() / radius_points);
     for (std::size_t k = 0; k < chosen.size(); k += stride) some.push_back(chosen[k]);
-    const double length = cloud_length(cloud.points);
     JetOptions with_radius = options;
     double least = 0.0, widest = radii.front() * length;
     for (const double radius : radii) {
@@ -57,21 +57,46 @@ std::vector<int> chosen_points(std::size_t count, int wanted, std::uint64_t seed
     return indices;
 }
 
-PrincipalFrameTable table_of(const std::vector<PointJet>& jets, double area) {
+/// Weights of points; those apart from the bulk count as one of it does.
+std::vector<double> weights_of(const PointCloud& cloud, const Neighbours& neighbours, const Bulk& bulk) {
+    std::vector<double> weights = point_weights(cloud, neighbours);
+    if (cloud.is_mesh()) return weights;
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        if (bulk.holds(cloud.points[i])) sum += weights[i], ++count;
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        if (!bulk.holds(cloud.points[i])) weights[i] = sum / static_cast<double>(count);
+    return weights;
+}
+
+PrincipalFrameTable table_of(const std::vector<PointJet>& jets, const Bulk& bulk, double area, double length) {
     std::vector<PrincipalFrameTable::Entry> entries;
     for (const PointJet& jet : jets) {
         if (!jet.valid) continue;
         PrincipalFrameTable::Entry entry{jet.frame, shape_signature(jet.derivatives, true)};
         const double uncertainty = std::max(jet.kappa_max_error, jet.kappa_min_error);
-        if (!jet.interior || uncertainty > greatest_uncertainty * entry.signature.magnitude)
+        if (!bulk.holds(jet.frame.point) || !jet.interior ||
+            uncertainty > greatest_uncertainty * entry.signature.magnitude)
             entry.signature.magnitude = entry.signature.anisotropy = 0.0;
         entries.push_back(std::move(entry));
     }
     const double step = entries.empty() ? 0.0 : std::sqrt(area / static_cast<double>(entries.size()));
-    return {std::move(entries), step};
+    return {std::move(entries), step, length};
+}
+
+std::vector<AreaSample> inside(const std::vector<AreaSample>& samples, const Bulk& bulk) {
+    std::vector<AreaSample> kept;
+    std::copy_if(samples.begin(), samples.end(), std::back_inserter(kept),
+                 [&](const AreaSample& sample) { return bulk.holds(sample.curvature.point); });
+    return kept;
 }
 
 }  // namespace
+
+std::vector<AreaSample> bulk_samples(const PreparedPoints& points) {
+    return inside(points.samples, points.bulk);
+}
 
 PreparedPoints prepare(const PointCloud& cloud, const PointFeatureOptions& options, const Progress& progress) {
     if (cloud.points.size() < static_cast<std::size_t>(fewest_points))
@@ -79,13 +104,18 @@ PreparedPoints prepare(const PointCloud& cloud, const PointFeatureOptions& optio
                            std::to_string(fewest_points) + " are needed to know a shape");
     progress.report(0.0, "neighbours");
     const Neighbours neighbours(cloud.points);
-    const std::vector<double> weights = point_weights(cloud, neighbours);
+    const Bulk bulk = bulk_of(cloud.points);
+    const std::vector<double> weights = weights_of(cloud, neighbours, bulk);
     const double area = std::accumulate(weights.begin(), weights.end(), 0.0);
     const std::vector<int> chosen = chosen_points(cloud.points.size(), options.samples, options.seed);
     progress.report(0.1, "jets");
     JetOptions jet_options = options.jets;
-    if (!jet_options.radius && cloud_length(cloud.points) > 0.0)
-        jet_options.radius = widest_radius(cloud, neighbours, chosen, options.jets, progress.part(0.1, 0.4));
+    std::vector<Vector3> most;
+    std::copy_if(cloud.points.begin(), cloud.points.end(), std::back_inserter(most),
+                 [&](const Vector3& p) { return bulk.holds(p); });
+    const double spread = cloud_length(most);
+    if (!jet_options.radius && spread > 0.0)
+        jet_options.radius = widest_radius(cloud, neighbours, chosen, spread, options.jets, progress.part(0.1, 0.4));
     std::vector<PointJet> jets = point_jets(cloud, neighbours, chosen, jet_options, progress.part(0.4, 1.0));
     if (std::none_of(jets.begin(), jets.end(), [](const PointJet& jet) { return jet.valid; }))
         throw InvalidInput(cloud.source.path + ": the points lie on no surface; is it a curve or a volume of points?");
@@ -100,15 +130,17 @@ PreparedPoints prepare(const PointCloud& cloud, const PointFeatureOptions& optio
         sample.weight = chosen_weight > 0.0 ? weights[chosen[k]] * area / chosen_weight : 0.0;
         samples.push_back(sample);
     }
-    PrincipalFrameTable table = table_of(jets, area);
-    const double length = shape_size(samples).length;
+    const double length = shape_size(inside(samples, bulk)).length;
+    PrincipalFrameTable table = table_of(jets, bulk, area, length);
     const double noise = estimated_noise(jets);
     progress.report(1.0, "points prepared");
     return {cloud,
             std::move(samples),
             std::move(jets),
             std::move(table),
+            cloud.is_mesh() ? std::make_unique<const TriangleTree>(cloud) : nullptr,
             area,
+            bulk,
             length,
             jet_options.radius.value_or(0.0),
             noise,

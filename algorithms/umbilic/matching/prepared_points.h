@@ -2,13 +2,16 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include <umbilic/core/progress.h>
 #include <umbilic/differential/area_samples.h>
 #include <umbilic/matching/principal_frame_table.h>
 #include <umbilic/model/point_cloud.h>
+#include <umbilic/points/bulk.h>
 #include <umbilic/points/point_jets.h>
+#include <umbilic/points/triangle_tree.h>
 
 namespace umbilic {
 
@@ -28,12 +31,17 @@ struct PreparedPoints {
                                       ///< jet is not valid (curvature.regular false)
     std::vector<PointJet> jets;       ///< one a sample
     PrincipalFrameTable table;        ///< of the valid jets; only interior and well-determined ones propose poses
-    double area = 0.0;                ///< mm^2, estimated (see point_weights())
-    double length = 0.0;              ///< twice the root mean square distance from the centroid, mm
-    double jet_radius = 0.0;          ///< of the jets' neighbourhoods where points are not sparse, mm
-    double noise = 0.0;               ///< standard deviation along the normal, mm (see estimated_noise())
-    bool oriented = false;            ///< normals point to the outward side: the cloud had normals or triangles
+    std::unique_ptr<const TriangleTree> triangles;  ///< of a mesh; null of a cloud
+    double area = 0.0;                              ///< mm^2, estimated (see point_weights())
+    Bulk bulk;                ///< what lies apart from it counts for the shares, but proposes and refines no pose
+    double length = 0.0;      ///< twice the root mean square distance of the bulk from its centroid, mm
+    double jet_radius = 0.0;  ///< of the jets' neighbourhoods where points are not sparse, mm
+    double noise = 0.0;       ///< standard deviation along the normal, mm (see estimated_noise())
+    bool oriented = false;    ///< normals point to the outward side: the cloud had normals or triangles
 };
+
+/// The samples in the bulk.
+std::vector<AreaSample> bulk_samples(const PreparedPoints& points);
 
 /// Throws InvalidInput, naming the file, if there are fewer than fewest_points points or no jet is valid; Cancelled.
 PreparedPoints prepare(const PointCloud& cloud, const PointFeatureOptions& options = {}, const Progress& progress = {});

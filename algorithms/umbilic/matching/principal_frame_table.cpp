@@ -122,9 +122,10 @@ PrincipalFrameTable::PrincipalFrameTable(const Model& model, int count, const Pr
     arrange();
 }
 
-PrincipalFrameTable::PrincipalFrameTable(std::vector<Entry> entries, double step)
+PrincipalFrameTable::PrincipalFrameTable(std::vector<Entry> entries, double step, std::optional<double> extent)
     : entries_(std::move(entries)), step_(step) {
     arrange();
+    if (extent) extent_ = *extent;
 }
 
 PrincipalFrameTable PrincipalFrameTable::of_face(int face) const {

@@ -45,7 +45,8 @@ public:
     /// `count`: samples over the whole model. Throws Cancelled.
     PrincipalFrameTable(const Model& model, int count, const Progress& progress = {});
     /// Entries found otherwise, `step` mm apart. Those whose magnitude is 0 take part in look-ups of positions only.
-    PrincipalFrameTable(std::vector<Entry> entries, double step);
+    /// `extent` (mm) stands for that of the samples.
+    PrincipalFrameTable(std::vector<Entry> entries, double step, std::optional<double> extent = {});
     ~PrincipalFrameTable();
     PrincipalFrameTable(PrincipalFrameTable&&) noexcept;
 
@@ -58,7 +59,7 @@ public:
     std::pair<int, int> angle_range(double low, double high) const;
     /// Typical distance of neighbouring samples, mm.
     double step() const { return step_; }
-    /// Twice the root mean square distance of the samples from their centroid, mm.
+    /// Twice the root mean square distance of the samples from their centroid, or what it was said to be, mm.
     double extent() const { return extent_; }
 
     /// The sample nearest to a point of space, or null if none is within `limit` (mm): a small limit ends the search of

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <umbilic/points/point_weights.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <numbers>
 
 #include <oneapi/tbb/parallel_for.h>
@@ -28,6 +30,11 @@ std::vector<double> point_weights(const PointCloud& cloud, const Neighbours& nei
         if (near.size() > 1)
             weights[i] = std::numbers::pi * near.back().squared_distance / static_cast<double>(near.size() - 1);
     });
+    std::vector<double> sorted = weights;
+    if (sorted.empty()) return weights;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    for (double& weight : weights) weight = std::min(weight, greatest_point_weight * *middle);
     return weights;
 }
 

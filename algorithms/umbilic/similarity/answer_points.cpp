@@ -27,7 +27,9 @@ Answer answer(const PreparedPoints& suspect, const Alignment& alignment, const A
 
     const double tolerance = find_tolerance(assessment.tolerances, "distance").value;
     const double noise = find_tolerance(assessment.tolerances, "noise").value;
-    const BoundingBox box = suspect.cloud.box();
+    BoundingBox box;
+    for (const Vector3& p : suspect.cloud.points)
+        if (suspect.bulk.holds(p)) box.add(p);
     const double extent = alignment.original_suspect.scale * box.diagonal();
     const double pose_tolerance = std::max(tolerance, scale_certainty * alignment.scale_deviation * extent);
     const SimilarityTransform pose = plainest_pose(alignment, box, pose_tolerance);
@@ -39,10 +41,15 @@ Answer answer(const PreparedPoints& suspect, const Alignment& alignment, const A
     const std::string how = done.empty() ? ", in the same place" : ", " + joined(done);
 
     const std::string scan = suspect.cloud.is_mesh() ? "a mesh" : "a scan";
+    const std::string chords = suspect.cloud.is_mesh()
+                                   ? ", its triangles up to " +
+                                         in_mm(find_tolerance(assessment.tolerances, "chord").value) +
+                                         " beside the surface as chords"
+                                   : "";
     const std::string lies = in_percent(assessment.suspect_on_original.coverage) +
                              " of it lies on the original within " + in_mm(tolerance) + " (rms " +
                              in_mm(alignment.rms) + ", noise of the points " + in_mm(noise) + ") and covers " +
-                             in_percent(assessment.original_on_suspect.coverage) + " of its area";
+                             in_percent(assessment.original_on_suspect.coverage) + " of its area" + chords;
     if (assessment.suspect_on_original.overlap < needed_share(assessment))
         return {AnswerClass::partly, scan + " that is partly of the original" + how + ": " + lies + caveat(alignment)};
     if (alignment.scope == MatchScope::global)

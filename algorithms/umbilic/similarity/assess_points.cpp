@@ -11,6 +11,7 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include <umbilic/matching/passed_samples.h>
 #include <umbilic/matching/score.h>
 #include <umbilic/matching/table_ground.h>
 #include <umbilic/similarity/local_similarity.h>
@@ -123,24 +124,21 @@ void finish(DirectedComparison& comparison, const std::vector<Tolerance>& tolera
     comparison.direction = statistics(comparison.nodes, Quantity::direction, overlap_limit);
 }
 
-/// Nodes of the original and whether the points' surface passes them.
+/// Nodes of the original and whether the points' surface passes them; `chord` becomes the deepest chord of a mesh
+/// there.
 DirectedComparison original_nodes(const OriginalGround& original, const PreparedPoints& suspect,
-                                  const SimilarityTransform& original_suspect, double tolerance) {
-    const TableGround ground(suspect.table);
-    const SimilarityTransform suspect_original = original_suspect.inverse();
-    const double scale = original_suspect.scale;
+                                  const SimilarityTransform& original_suspect, double tolerance, double& chord) {
     DirectedComparison result;
-    result.nodes.resize(original.samples.size());
-    tbb::parallel_for(std::size_t{0}, result.nodes.size(), [&](std::size_t i) {
-        const AreaSample& sample = original.samples[i];
-        NodeComparison& node = result.nodes[i];
-        const GroundFoot foot = *ground.foot(suspect_original.apply(sample.curvature.point), anywhere);
-        node = {.at = sample.at, .point = sample.curvature.point, .weight = sample.weight};
-        node.distance = scale * foot.distance;
-        const Vector3 offset = original_suspect.apply(foot.point) - node.point;
-        node.signed_distance = std::copysign(node.distance, offset.dot(sample.curvature.normal));
-        node.covered = !foot.at_border && node.distance <= tolerance;
-    });
+    chord = 0.0;
+    for (const PassedSample& passed : passed_samples(original.samples, suspect, original_suspect)) {
+        const AreaSample& sample = original.samples[result.nodes.size()];
+        NodeComparison node{.at = sample.at, .point = sample.curvature.point, .weight = sample.weight};
+        node.distance = passed.distance;
+        node.signed_distance = passed.signed_distance;
+        node.covered = !passed.past_border && node.distance <= tolerance;
+        if (node.covered) chord = std::max(chord, passed.chord);
+        result.nodes.push_back(std::move(node));
+    }
     return result;
 }
 
@@ -221,7 +219,12 @@ Assessment assess(const PreparedShape& original, const PreparedPoints& suspect, 
         forward.nodes.push_back(std::move(node));
     }
     finish(forward, result.tolerances);
-    result.original_on_suspect = original_nodes(ground, suspect, pose, distance);
+    double chord = 0.0;
+    result.original_on_suspect = original_nodes(ground, suspect, pose, distance, chord);
+    if (suspect.triangles)
+        result.tolerances.push_back(
+            {"chord", chord, "mm", ToleranceOrigin::derived,
+             "greatest depth of a triangle below the original that its corners lie on; no difference of the shapes"});
     finish(result.original_on_suspect, result.tolerances);
 
     result.weak_passed = passes_weak(result);
