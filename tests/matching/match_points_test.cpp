@@ -106,7 +106,9 @@ TEST_F(MatchPoints, AFewForeignPointsFarAwayChangeNothing) {
         ASSERT_EQ(alignment.status, AlignmentStatus::found) << diagonals << ' ' << alignment.why;
         EXPECT_LT(pose_error(piece, alignment.original_suspect, truth, model.size()), 1e-2);
         EXPECT_LT(alignment.suspect_coverage, 0.98) << diagonals;
-        if (diagonals >= 5.0) EXPECT_NEAR(suspect.length, alone.length, 1e-6 * alone.length);
+        if (diagonals >= 5.0) {
+            EXPECT_NEAR(suspect.length, alone.length, 1e-6 * alone.length);
+        }
     }
     // What lies apart is counted, not forgotten: with 10 % of it no pose lays the points on the original.
     PointCloud cloud = piece;

@@ -67,9 +67,9 @@ Proposals poses_by_principal_frame(const PreparedModel& original, const Prepared
     if (seeds == Seeds::first) options.seeds = first_seeds;
     if (seeds == Seeds::others) options.first_seed = first_seeds;
     if (seeds == Seeds::second_order) options.seeds = second_order_seeds;
-    Proposals result{.why = std::string("curvature: ") + (third_order ? "third order" : "second order") +
-                            (seeds == Seeds::others ? " at further points" : "") +
-                            (swapped ? " from the original's side" : "")};
+    Proposals result{.why = third_order ? "curvature: third order" : "curvature: second order"};
+    if (seeds == Seeds::others) result.why += " at further points";
+    if (swapped) result.why += " from the original's side";
     const auto poses = swapped ? propose_by_principal_frame(suspect.table, original.table, options, progress)
                                : propose_by_principal_frame(original.table, suspect.table, options, progress);
     for (const PoseCandidate& pose : poses)
