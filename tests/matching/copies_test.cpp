@@ -10,29 +10,22 @@
 #include <umbilic/matching/match.h>
 
 #include "mechanical_shapes.h"
+#include "pose_error.h"
 
 namespace umbilic {
 namespace {
 
 using support::model_of;
+using support::pose_error;
 using support::random_similarity;
 using support::rough_bicubic;
 using support::transformed;
 
-/// Greatest displacement, relative to the original's size, between two poses of points around the suspect.
-double pose_error(const SimilarityTransform& found, const SimilarityTransform& truth, const Model& original) {
-    const Vector3 centre = original.box.center();
-    const double size = original.size();
-    double greatest = 0.0;
-    for (const Vector3& offset : {Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(0, 1, 0), Vector3(0, 0, 1)}) {
-        const Vector3 p = truth.inverse().apply(centre + 0.5 * size * offset);
-        greatest = std::max(greatest, (found.apply(p) - truth.apply(p)).norm());
-    }
-    return greatest / size;
-}
-
 Alignment match_models(const Model& original, const Model& suspect) {
-    return match(prepare(original), prepare(suspect));
+    FeatureOptions quick;
+    quick.samples.count = 1500;
+    quick.umbilics.certificate = false;
+    return match(prepare(original, quick), prepare(suspect, quick));
 }
 
 TEST(Copies, EveryOneInsideTheOriginalIsListed) {

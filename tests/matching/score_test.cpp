@@ -20,10 +20,12 @@ using support::rectangle;
 TEST(SampleDistances, WherePartsTouchTheFaceOnTheSamplesSideCounts) {
     // Two faces in one place that look at each other; the first and the second of them in turn is the sample's own.
     const NurbsSurface up = rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), down = rectangle({0, 0, 0}, {0, 1, 0}, {1, 0, 0});
-    const PreparedModel both = prepare(model_of({up, down}));
-    const Ground ground(both);
+    const Model both = model_of({up, down});
+    const PreparedModel prepared = prepare(both);
+    const Ground ground(prepared);
     for (const NurbsSurface& own : {up, down}) {
-        const PreparedModel sampled = prepare(model_of({own}));
+        const Model one = model_of({own});
+        const PreparedModel sampled = prepare(one);
         const std::vector<double> distances =
             sample_distances(ground, true, sampled.features.samples, SimilarityTransform(), 0.1);
         EXPECT_LT(*std::max_element(distances.begin(), distances.end()), 1e-12);
@@ -31,8 +33,9 @@ TEST(SampleDistances, WherePartsTouchTheFaceOnTheSamplesSideCounts) {
 }
 
 TEST(SampleDistances, AFaceThatLooksTheOtherWayDoesNotCount) {
-    const PreparedModel ground = prepare(model_of({rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})}));
-    const PreparedModel sampled = prepare(model_of({rectangle({0, 0, 0}, {0, 0.9, 0}, {0.9, 0, 0})}));
+    const Model up = model_of({rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})});
+    const Model down = model_of({rectangle({0, 0, 0}, {0, 0.9, 0}, {0.9, 0, 0})});
+    const PreparedModel ground = prepare(up), sampled = prepare(down);
     const std::vector<double> distances =
         sample_distances(Ground(ground), true, sampled.features.samples, SimilarityTransform(), 0.1);
     EXPECT_EQ(std::count_if(distances.begin(), distances.end(), [](double d) { return std::isfinite(d); }), 0);
