@@ -28,6 +28,10 @@ constexpr double sliding = 0.1;
 constexpr double equal_rms = 1.15, negligible_rms = 1e-7, equal_share = 0.02;
 /// Symmetries that are completed at most; bodies of revolution have no end of them.
 constexpr std::size_t most_symmetries = 120;
+/// Samples that say whether a pose is worth being measured as a symmetry, and the part of the share that must be seen on
+/// them: 48 of them differ from the whole by chance.
+constexpr int screening_samples = 48;
+constexpr double least_of_few = 0.8;
 /// Runners-up that are reported.
 constexpr std::size_t most_runners_up = 10;
 
@@ -192,29 +196,39 @@ bool plainer(const SimilarityTransform& a, const SimilarityTransform& b) {
 /// counts.
 void complete_symmetries(const PoseSearch& search, const SimilarityTransform& winner, const Fit& fit,
                          std::vector<SimilarityTransform>& symmetries, const Progress& progress) {
-    std::vector<SimilarityTransform> known = {winner};
+    std::vector<SimilarityTransform> known = {winner}, refused;
     known.insert(known.end(), symmetries.begin(), symmetries.end());
-    const auto is_known = [&](const SimilarityTransform& pose) {
-        return std::any_of(known.begin(), known.end(),
+    const auto among = [&](const std::vector<SimilarityTransform>& poses, const SimilarityTransform& pose) {
+        return std::any_of(poses.begin(), poses.end(),
                            [&](const SimilarityTransform& other) { return !search.distance().different(pose, other); });
     };
     // The model that is covered more says whether a pose is as good: of an assembly little may lie on the original.
     const bool by_original = fit.original.share > fit.suspect.share;
-    const auto share = [&](const SimilarityTransform& pose) {
-        const Ground &ground = by_original ? search.suspect() : search.original(),
-                     &laid = by_original ? search.original() : search.suspect();
+    const Ground &ground = by_original ? search.suspect() : search.original(),
+                 &laid = by_original ? search.original() : search.suspect();
+    const std::vector<AreaSample>& samples = laid.model.features.samples;
+    const std::vector<int> few = spread_samples(samples, screening_samples);
+    const bool oriented = ground.model.model.oriented() && laid.model.model.oriented();
+    const double share = std::max(fit.suspect.share, fit.original.share);
+    const auto as_good = [&](const SimilarityTransform& pose) {
+        const SimilarityTransform ground_laid = by_original ? pose.inverse() : pose;
         const double tolerance = by_original ? fit.tolerance / pose.scale : fit.tolerance;
-        return coverage(laid.model.features.samples,
-                        sample_distances(ground, laid.model, by_original ? pose.inverse() : pose, tolerance), tolerance)
-            .share;
+        // Soft shares within twice the tolerance: what lies within the tolerance counts three quarters at least.
+        const double least = least_of_few * 0.75 * share;
+        if (quick_score(ground, oriented, samples, few, ground_laid, 2.0 * tolerance, least) < least) return false;
+        return coverage(samples, sample_distances(ground, laid.model, ground_laid, tolerance), tolerance).share >=
+               share - equal_share;
     };
     for (std::size_t i = 1; i < known.size(); ++i)
         for (std::size_t j = 1; j < known.size(); ++j) {
             if (symmetries.size() >= most_symmetries) return;
             progress.check();
             const SimilarityTransform next = compose(compose(known[i], winner.inverse()), known[j]);
-            if (is_known(next)) continue;
-            if (share(next) < std::max(fit.suspect.share, fit.original.share) - equal_share) continue;
+            if (among(known, next) || among(refused, next)) continue;
+            if (!as_good(next)) {
+                refused.push_back(next);
+                continue;
+            }
             known.push_back(next);
             symmetries.push_back(next);
         }
