@@ -19,7 +19,8 @@ using support::rectangle;
 
 TEST(SampleDistances, WherePartsTouchTheFaceOnTheSamplesSideCounts) {
     // Two faces in one place that look at each other; the first and the second of them in turn is the sample's own.
-    const NurbsSurface up = rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), down = rectangle({0, 0, 0}, {0, 1, 0}, {1, 0, 0});
+    const NurbsSurface up = rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}),
+                       down = rectangle({0, 0, 0}, {0, 1, 0}, {1, 0, 0});
     const Model both = model_of({up, down});
     const PreparedModel prepared = prepare(both);
     const Ground ground(prepared);

@@ -38,8 +38,8 @@ public:
     ClosestPointTree& operator=(ClosestPointTree&&) noexcept;
 
     /// Point of the trimmed faces that is closest to `point`, over all faces: the global minimum of the distance
-    /// (thesis (4.3)). Nothing if every point is farther than `limit` (mm). `without`: number of a face that is left out,
-    /// 0 for none.
+    /// (thesis (4.3)). Nothing if every point is farther than `limit` (mm). `without`: number of a face that is left
+    /// out, 0 for none.
     std::optional<ClosestPoint> closest(const Vector3& point, double limit = std::numeric_limits<double>::infinity(),
                                         int without = 0) const;
 

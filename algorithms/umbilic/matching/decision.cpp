@@ -28,8 +28,8 @@ constexpr double sliding = 0.1;
 constexpr double equal_rms = 1.15, negligible_rms = 1e-7, equal_share = 0.02;
 /// Symmetries that are completed at most; bodies of revolution have no end of them.
 constexpr std::size_t most_symmetries = 120;
-/// Samples that say whether a pose is worth being measured as a symmetry, and the part of the share that must be seen on
-/// them: 48 of them differ from the whole by chance.
+/// Samples that say whether a pose is worth being measured as a symmetry, and the part of the share that must be seen
+/// on them: 48 of them differ from the whole by chance.
 constexpr int screening_samples = 48;
 constexpr double least_of_few = 0.8;
 /// Runners-up that are reported.

@@ -157,9 +157,8 @@ void PoseSearch::consider(const Proposals& proposals, int keep, double start_cut
                         spread_points(suspect_.model.features.samples, refining_points)};
     const Judging judging{spread_samples(original_.model.features.samples, judging_samples),
                           spread_samples(suspect_.model.features.samples, judging_samples)};
-    const RefineOptions exactly{.start_cutoff = near_cutoff,
-                                .maximum_steps = refining_steps,
-                                .sufficient_part_of_rms = sufficient_part_of_rms};
+    const RefineOptions exactly{
+        .start_cutoff = near_cutoff, .maximum_steps = refining_steps, .sufficient_part_of_rms = sufficient_part_of_rms};
     std::optional<ScoredPose> spare;  // the best of those that are not promising
     double spare_shares = 0.0;
     for (std::size_t i = 0; i < chosen.size(); ++i) {

@@ -51,9 +51,9 @@ struct Refinement {
     /// points.
     Matrix7 normal_matrix = Matrix7::Zero();
     Vector3 centre = Vector3::Zero();  ///< that centroid, mm of the original
-    double radius = 0.0;           ///< mm of the original
-    double scale_deviation = 0.0;  ///< standard deviation of log(scale) from residuals and normal matrix; infinity
-                                   ///< where the scale is not determined
+    double radius = 0.0;               ///< mm of the original
+    double scale_deviation = 0.0;      ///< standard deviation of log(scale) from residuals and normal matrix; infinity
+                                       ///< where the scale is not determined
 };
 
 /// Motions whose eigenvalue of the normal matrix is below this part of the greatest are not determined (sliding of a
@@ -64,9 +64,9 @@ inline constexpr double undetermined_motion = 1e-10;
 /// Least squares of the distances of the suspect's points from the original's surface, all of a similarity free unless
 /// the scale is known (thesis 4.2.4, (4.4), with the distance in the suspect's unit: sum (r / s)^2, row
 /// [(x - o) x n, n, n . (x - o) - r]; minimised in the original's unit, noise makes every scale too small).
-/// Gauss-Newton, damped where a step would raise the loss (Levenberg), with Tukey weights whose cut-off shrinks with the
-/// lower quartile of the residuals, so that material foreign to the original loses its pull; points whose foot lies on
-/// a border and that hang over it are left out. Exact copies end within rounding.
+/// Gauss-Newton, damped where a step would raise the loss (Levenberg), with Tukey weights whose cut-off shrinks with
+/// the lower quartile of the residuals, so that material foreign to the original loses its pull; points whose foot lies
+/// on a border and that hang over it are left out. Exact copies end within rounding.
 Refinement refine(const GroundSurface& original, std::span<const WeightedPoint> points,
                   const SimilarityTransform& start, const RefineOptions& options = {}, const Progress& progress = {});
 
