@@ -26,6 +26,9 @@ constexpr double sliding = 0.1;
 /// Two fits are equally good if the greater rms is within this factor of the smaller one (or below `negligible_rms` of
 /// the length, which is rounding in files) and the shares differ by less than `equal_share`.
 constexpr double equal_rms = 1.15, negligible_rms = 1e-7, equal_share = 0.02;
+/// Of equally good fits one whose rms is smaller by this factor is preferred, down to the rounding of numbers relative
+/// to the length.
+constexpr double far_closer = 10.0, least_rms = 1e-13;
 /// Symmetries that are completed at most; bodies of revolution have no end of them.
 constexpr std::size_t most_symmetries = 120;
 /// Samples that say whether a pose is worth being measured as a symmetry, and the part of the share that must be seen
@@ -287,18 +290,22 @@ Alignment decide_alignment(PoseSearch& search, const std::string& tried, const P
         alignment.why = "No pose lays enough of one model on the other to be refined: " + tried + ".";
         return alignment;
     }
-    search.polish(0, progress);
     const auto& poses = search.poses();
+    search.polish(0, judge(poses[0], search).level != FitLevel::none, progress);
 
     // The best pose of the highest level.
     Ranked best{0, judge(poses[0], search)};
     for (std::size_t i = 1; i < poses.size(); ++i) {
         Fit fit = judge(poses[i], search);
         if (fit.level < best.fit.level) continue;
-        const bool more_fixed = poses[i].fixed_by_borders.size() > poses[best.index].fixed_by_borders.size() &&
-                                fit.suspect.share >= best.fit.suspect.share - equal_share &&
-                                fit.original.share >= best.fit.original.share - equal_share;
-        if (fit.level > best.fit.level || more_fixed) best = {i, std::move(fit)};
+        const bool as_much = fit.suspect.share >= best.fit.suspect.share - equal_share &&
+                             fit.original.share >= best.fit.original.share - equal_share;
+        const bool more_fixed = as_much && poses[i].fixed_by_borders.size() > poses[best.index].fixed_by_borders.size();
+        // Along a valley that is all but flat the shares differ by chance only.
+        const bool much_closer =
+            as_much && poses[i].fixed_by_borders.size() == poses[best.index].fixed_by_borders.size() &&
+            far_closer * std::max(fit.suspect.rms, least_rms * poses[i].length) < best.fit.suspect.rms;
+        if (fit.level > best.fit.level || more_fixed || much_closer) best = {i, std::move(fit)};
     }
     // At one tolerance for all: poses that do as well, and the plainest of them as the winner.
     std::vector<Ranked> equals = {best};
@@ -319,7 +326,7 @@ Alignment decide_alignment(PoseSearch& search, const std::string& tried, const P
     });
     if (equals.front().index != best.index) {
         const std::size_t winner = equals.front().index;
-        search.polish(winner, progress);
+        search.polish(winner, best.fit.level != FitLevel::none, progress);
         Fit fit = fit_at(poses[winner], search, best.fit.tolerance);
         fit.level = best.fit.level;
         fit.exact = best.fit.exact;

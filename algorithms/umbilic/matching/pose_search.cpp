@@ -41,6 +41,8 @@ constexpr double unpromising = 0.25;
 /// steps than these.
 constexpr double sufficient_part_of_rms = 1e-3;
 constexpr int refining_steps = 30;
+/// ... unless a valley is all but flat, which polishing goes along.
+constexpr int polishing_steps = 90;
 /// Polishing starts from the cut-off of the first refinement times this.
 constexpr double wider = 2.0;
 /// A refined pose whose residuals are below this part of the length, the rounding of files, gains nothing from more
@@ -226,7 +228,7 @@ void PoseSearch::fix(std::size_t index, const SimilarityTransform& move, const F
     sort_poses();
 }
 
-void PoseSearch::polish(std::size_t index, const Progress& progress) {
+void PoseSearch::polish(std::size_t index, bool fits, const Progress& progress) {
     const ScoredPose& pose = poses_[index];
     if (!pose.fixed_by_borders.empty()) return;
     if (pose.refinement.converged && pose.refinement.rms <= rounding * pose.length && !pose.approximate) return;
@@ -234,7 +236,7 @@ void PoseSearch::polish(std::size_t index, const Progress& progress) {
     ScoredPose better{.hypothesis = poses_[index].hypothesis};
     const double known_cutoff = pose.approximate ? near_cutoff : wider * pose.refinement.cutoff / pose.length;
     const RefineOptions finely{.start_cutoff = std::clamp(known_cutoff, rounding, near_cutoff),
-                               .maximum_steps = refining_steps,
+                               .maximum_steps = fits ? polishing_steps : refining_steps,
                                .sufficient_part_of_rms = sufficient_part_of_rms};
     if (!lay_on_surfaces(better, points, finely, progress)) return;
     measure(better, original_, suspect_);

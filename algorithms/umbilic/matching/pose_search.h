@@ -43,8 +43,8 @@ public:
     /// off, see RefineOptions. Throws Cancelled.
     void consider(const Proposals& proposals, int keep, double start_cutoff, const Progress& progress);
 
-    /// Refines the pose at `index` of poses() on all samples.
-    void polish(std::size_t index, const Progress& progress);
+    /// Refines the pose at `index` of poses() on all samples; one that `fits`, with patience.
+    void polish(std::size_t index, bool fits, const Progress& progress);
 
     /// Adds what becomes of the pose at `index` of poses() when the suspect moves by `move`, in the original's space:
     /// one of the places that a free motion runs through, or its mirror image, where borders of this length (mm) are
