@@ -172,6 +172,23 @@ TEST(FreeMotion, ScrewsOfMirrorImagesTurnTheOtherWay) {
     EXPECT_LT((here.motions[0].direction - moved.direction).norm(), 1e-6);
 }
 
+TEST(FreeMotion, KnowsTheAmountOfAMotionThatItMade) {
+    const Vector3 point(3, -1, 2), axis = Vector3(1, 2, 2) / 3.0;
+    for (const FreeMotionKind kind : {FreeMotionKind::turn, FreeMotionKind::slide, FreeMotionKind::screw,
+                                      FreeMotionKind::size, FreeMotionKind::spiral}) {
+        const bool pitched = kind == FreeMotionKind::screw || kind == FreeMotionKind::spiral;
+        const FreeMotion motion{kind, point, kind == FreeMotionKind::size ? Vector3(0, 0, 0) : axis,
+                                pitched ? 0.7 : 0.0};
+        for (const double amount : {-1.2, -0.1, 0.4, 2.5}) {
+            const std::optional<double> found = motion.amount_of(motion.by(amount));
+            ASSERT_TRUE(found) << name(kind);
+            EXPECT_NEAR(*found, amount, 1e-12) << name(kind);
+        }
+    }
+    EXPECT_FALSE(FreeMotion{FreeMotionKind::turn_about_point}.amount_of(SimilarityTransform()));
+    EXPECT_FALSE(FreeMotion{FreeMotionKind::slide_in_plane}.amount_of(SimilarityTransform()));
+}
+
 TEST(FreeMotion, IsSaidInWords) {
     const FreeMotion axis{turn, Vector3(0, 0, 5), Vector3::UnitZ()};
     EXPECT_EQ(in_words(axis), "turns about the axis through (0, 0, 5) along (0, 0, 1)");

@@ -285,6 +285,22 @@ TEST(Match, ATimeLimitLeavesTheBestPoseSoFar) {
     }
 }
 
+TEST(Match, AFreeTurnStandsForTheSampledTurnsOfATorus) {
+    const NurbsSurface torus = support::full_torus(5.0, 2.0);
+    const Model original = model_of({torus}),
+                suspect = model_of({transformed(torus, random_similarity(7, 1.0, false))});
+    const Alignment alignment = match_models(original, suspect);
+    SCOPED_TRACE(alignment.why);
+    ASSERT_EQ(alignment.status, AlignmentStatus::found);
+    ASSERT_EQ(alignment.free_motions.size(), 1u);
+    EXPECT_EQ(alignment.free_motions.front().kind, FreeMotionKind::turn);
+    // Beside the turn only the torus upside down: no reflection, which is its own turned about.
+    ASSERT_EQ(alignment.symmetries.size(), 1u);
+    const Vector3 axis =
+        compose(alignment.symmetries.front(), alignment.original_suspect.inverse()).apply_direction(Vector3::UnitZ());
+    EXPECT_NEAR(axis.z(), -1.0, 1e-9);
+}
+
 TEST(Match, FixedScaleRefusesAScaledCopy) {
     const NurbsSurface surface = smooth_bicubic(10, 3);
     const Model original = model_of({surface});

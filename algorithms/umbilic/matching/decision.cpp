@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include <umbilic/matching/copies.h>
 #include <umbilic/matching/evidence.h>
@@ -337,10 +338,21 @@ Alignment decide_alignment(PoseSearch& search, const std::string& tried, const P
     const ScoredPose& winner = poses[best.index];
     const SimilarityTransform& pose = winner.hypothesis.original_suspect;
 
+    const auto reached_from = [&](const SimilarityTransform& known, const SimilarityTransform& other) {
+        return std::any_of(best.fit.free_motions.begin(), best.fit.free_motions.end(), [&](const FreeMotion& motion) {
+            const std::optional<double> amount = motion.amount_of(compose(other, known.inverse()));
+            return amount && !search.distance().different(compose(motion.by(*amount), known), other);
+        });
+    };
     std::size_t strangers = 0;
     for (std::size_t k = 1; k < equals.size(); ++k) {
         progress.check();
         const SimilarityTransform& other = poses[equals[k].index].hypothesis.original_suspect;
+        // The free motion tells these already.
+        if (reached_from(pose, other) ||
+            std::any_of(alignment.symmetries.begin(), alignment.symmetries.end(),
+                        [&](const SimilarityTransform& known) { return reached_from(known, other); }))
+            continue;
         const bool symmetry =
             best.fit.exact ||
             self_coverage(search.original(), compose(other, pose.inverse()), best.fit.tolerance) >= whole ||

@@ -142,6 +142,25 @@ FreeMotion FreeMotion::seen_through(const SimilarityTransform& transform) const 
     return result;
 }
 
+std::optional<double> FreeMotion::amount_of(const SimilarityTransform& motion) const {
+    switch (kind) {
+        case FreeMotionKind::turn:
+        case FreeMotionKind::screw: {
+            const Eigen::AngleAxisd turn(motion.rotation);
+            return turn.angle() * turn.axis().dot(direction);
+        }
+        case FreeMotionKind::slide:
+            return (motion.apply(point) - point).dot(direction);
+        case FreeMotionKind::size:
+        case FreeMotionKind::spiral:
+            return std::log(motion.scale);
+        case FreeMotionKind::slide_in_plane:
+        case FreeMotionKind::turn_about_point:
+            return {};
+    }
+    return {};
+}
+
 SimilarityTransform FreeMotion::by(double amount) const {
     SimilarityTransform result;
     Vector3 axis = direction;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,9 @@ struct FreeMotion {
     /// The motion by `amount`: radians of turns and screws (about x where any axis would do), mm of slides, log of the
     /// scale of sizes and spirals.
     SimilarityTransform by(double amount) const;
+    /// The amount by which it comes near to a motion of the original's space that it may be; nothing for
+    /// slide_in_plane and turn_about_point, which have more than one.
+    std::optional<double> amount_of(const SimilarityTransform& motion) const;
 };
 
 /// The motions of surfaces within themselves, read from the normal equations of a refinement (see
