@@ -23,7 +23,7 @@ struct Halving {
     double distance, most_cells;
     int deepest;
 };
-constexpr Halving far_points{1.0, 32768, 8}, near_points{0.02, 131072, 12};
+constexpr Halving far_points{1.0, 32768, 8}, near_points{0.02, 65536, 12};
 /// Cells are accurate if the second derivatives of the squared distance are known up to this part of those of the
 /// surface's own metric.
 constexpr double wanted_accuracy = 0.5;
